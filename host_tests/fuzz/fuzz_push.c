@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: MIT */
+/* Any bytes as samples: whatever is pushed, results keep what the headers promise. */
+#include "jointcal/jointcal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+/* Room for the default config; fuzz_push checks it. */
+#define STORAGE_BYTES 262144
+
+static void require(bool condition)
+{
+    if (!condition) {
+        abort();
+    }
+}
+
+static bool is_unit(jcal_vec3_t axis)
+{
+    return fabsf(jcal_vec3_norm(axis) - 1.0f) < 1e-4f;
+}
+
+static bool is_zero(jcal_vec3_t axis)
+{
+    return axis.x == 0.0f && axis.y == 0.0f && axis.z == 0.0f;
+}
+
+static bool is_fraction(float value)
+{
+    return value >= 0.0f && value <= 1.0f;
+}
+
+static void check_counts(const jcal_hinge_result_t *result, uint32_t pushed)
+{
+    uint32_t sum = 0;
+    for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
+        sum += result->rejected_by[k];
+    }
+    require(result->samples == pushed && result->rejected == sum && sum <= pushed);
+}
+
+static void check_result(const jcal_hinge_result_t *result, jcal_engine_t engine, uint32_t pushed)
+{
+    check_counts(result, pushed);
+    require(result->engine == engine);
+    require(result->status >= JCAL_COLLECTING && result->status <= JCAL_MOVED);
+    require(jcal_calibration_string(result->status) != NULL);
+    if (result->has_axes) {
+        require(is_unit(result->axis1) && is_unit(result->axis2));
+    } else {
+        require(is_zero(result->axis1) && is_zero(result->axis2));
+    }
+    /* Written so that NaN fails. */
+    require(result->uncertainty1_rad >= 0.0f && result->uncertainty1_rad <= 1.5708f);
+    require(result->uncertainty2_rad >= 0.0f && result->uncertainty2_rad <= 1.5708f);
+    require(result->sign_margin >= 0.0f);
+    require(is_fraction(result->progress_axis1) && is_fraction(result->progress_axis2));
+    require(is_fraction(result->progress_sign));
+    if (result->status == JCAL_READY) {
+        const float bound_rad = jcal_hinge_config_default().max_bound_rad;
+        require(result->has_axes && result->uncertainty1_rad < 2.0f * bound_rad &&
+                result->uncertainty2_rad < 2.0f * bound_rad);
+    }
+}
+
+/* How the bytes of a sample are read: anything at all, or values of a sensor's range, which get past the gate. */
+typedef enum { AS_FLOATS, AS_SENSOR } reading_t;
+
+#define SAMPLE_BYTES 26u /* 2 bytes of time step, 12 values of 2 bytes */
+
+/* One 16-bit value as a float: its bits spread over all exponents, or scaled to the range. */
+static float component(const uint8_t *data, reading_t reading, float range)
+{
+    int16_t raw;
+    memcpy(&raw, data, sizeof raw);
+    if (reading == AS_SENSOR) {
+        return range * (float)raw / 32768.0f;
+    }
+    const uint32_t bits = (uint32_t)(uint16_t)raw << 16;
+    float value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+static jcal_vec3_t vector(const uint8_t *data, reading_t reading, float range)
+{
+    return jcal_vec3(component(data, reading, range), component(data + 2, reading, range),
+                     component(data + 4, reading, range));
+}
+
+static jcal_pair_t sample(const uint8_t *data, reading_t reading, uint64_t *t_us)
+{
+    uint16_t step;
+    memcpy(&step, data, sizeof step);
+    /* Mostly forward, now and then backward or not at all. */
+    *t_us += (reading == AS_SENSOR) ? 5000u + step % 40000u : (uint64_t)(int64_t)(int16_t)step * 100u;
+    const jcal_pair_t pair = {*t_us,
+                              {vector(data + 2, reading, 10.0f), vector(data + 8, reading, 30.0f)},
+                              {vector(data + 14, reading, 10.0f), vector(data + 20, reading, 30.0f)}};
+    return pair;
+}
+
+static void require_push(jcal_status_t status)
+{
+    require(status == JCAL_OK || status == JCAL_REJECTED);
+}
+
+static void check_both(const jcal_hinge_t *stream, const jcal_hinge_window_t *window, uint32_t pushed)
+{
+    jcal_hinge_result_t result;
+    require(jcal_hinge_get(stream, &result) == JCAL_OK);
+    check_result(&result, JCAL_ENGINE_STREAM, pushed);
+    require(jcal_hinge_window_get(window, &result) == JCAL_OK);
+    check_result(&result, JCAL_ENGINE_WINDOW, pushed);
+}
+
+/* The first byte chooses the reading and how often the samples are repeated; then come samples. */
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    static jcal_hinge_t stream;
+    static jcal_hinge_window_t window;
+    static uint64_t storage[STORAGE_BYTES / sizeof(uint64_t)];
+    const jcal_hinge_config_t stream_config = jcal_hinge_config_default();
+    const jcal_hinge_window_config_t window_config = jcal_hinge_window_config_default();
+    require(jcal_hinge_window_storage_bytes(&window_config) <= sizeof storage);
+    require(jcal_hinge_init(&stream, &stream_config) == JCAL_OK);
+    require(jcal_hinge_window_init(&window, &window_config, storage, sizeof storage) == JCAL_OK);
+    if (size == 0) {
+        return 0;
+    }
+    const reading_t reading = ((data[0] & 1u) != 0) ? AS_SENSOR : AS_FLOATS;
+    const unsigned repeats = 1u + (data[0] >> 6);
+    uint64_t t_us = (data[0] & 2u) != 0 ? UINT64_MAX - 1000000u : 0;
+    uint32_t pushed = 0;
+    for (unsigned repeat = 0; repeat < repeats; repeat++) {
+        for (size_t at = 1; at + SAMPLE_BYTES <= size; at += SAMPLE_BYTES) {
+            const jcal_pair_t pair = sample(data + at, reading, &t_us);
+            require_push(jcal_hinge_update(&stream, &pair));
+            require_push(jcal_hinge_window_update(&window, &pair));
+            check_both(&stream, &window, ++pushed);
+        }
+    }
+    return 0;
+}

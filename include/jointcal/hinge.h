@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Hinge joint: both joint axes from gyroscopes and accelerometers. Stream engine, and what both engines share.
+///
+/// Primary source: [OLS20]. Unknowns are j1 and j2, the unit joint axis in sensor frames 1 and 2.
+#ifndef JCAL_HINGE_H
+#define JCAL_HINGE_H
+
+#include "jointcal/gate.h"
+#include "jointcal/inbox.h"
+#include "jointcal/status.h"
+#include "jointcal/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// What the user knows about the sign pairing beforehand.
+typedef enum {
+    JCAL_SIGN_UNKNOWN = 0,   ///< Find it out (default).
+    JCAL_SIGN_SAME = 1,      ///< The largest components of axis1 and axis2 have the same sign.
+    JCAL_SIGN_OPPOSITE = 2   ///< They have opposite signs.
+} jcal_sign_hint_t;
+
+/// The bound of something of which nothing is known: a right angle, the largest angle between two lines, rad.
+#define JCAL_BOUND_UNKNOWN_RAD 1.57079633f
+
+/// What both hinge engines say.
+typedef struct {
+    jcal_calibration_t status;
+    jcal_engine_t engine;
+    jcal_weak_t weak;         ///< The unknown that keeps the status from `ready`, if there is one.
+    jcal_hint_t hint;         ///< The motion that would help.
+    jcal_reason_t reason;     ///< Why the status is not `ready`.
+    bool has_axes;            ///< False until there is any estimate; then axis1, axis2 are zero.
+    bool paper_accepted;      ///< Window engine: what Algorithm 4 of [OLS20] says. Stream engine: false.
+    jcal_vec3_t axis1;        ///< Unit joint axis in sensor frame 1; its largest component is positive.
+    jcal_vec3_t axis2;        ///< Unit joint axis in sensor frame 2, sign following the pairing.
+    float uncertainty1_rad;   ///< 95 % bound of the angle between axis1 and the truth; JCAL_BOUND_UNKNOWN_RAD if unknown.
+    float uncertainty2_rad;   ///< The same for axis2.
+    float sign_margin;        ///< Cost of the other sign pairing over the cost of this one; 0 while unknown.
+    float progress_axis1;     ///< 0 to 1: how far axis1 is on the way to its bound.
+    float progress_axis2;     ///< The same for axis2.
+    float progress_sign;      ///< The same for the evidence of the sign pairing.
+    uint64_t t_us;            ///< Time of the last sample that went into this result; 0 before any.
+    uint32_t samples;         ///< Samples pushed.
+    uint32_t rejected;        ///< Samples rejected, all causes.
+    uint32_t rejected_by[JCAL_REJECT_COUNT];
+} jcal_hinge_result_t;
+
+/// Settings that both hinge engines share. Start from jcal_hinge_config_default().
+///
+/// The noise and bias fields set how much each kind of data counts and what may be blamed on a bias; bounds are made from the
+/// residuals that are really met, so that a wrong value here costs sharpness, not honesty.
+typedef struct {
+    jcal_gate_config_t gate;      ///< Limits of single samples.
+    float max_bound_rad;          ///< `ready` needs both bounds below this, rad. Range [0.001, 0.5], default 3 deg.
+    float rate_mismatch;          ///< What the model leaves out (scale, misalignment, timing of the gyroscopes), as a share of
+                                  ///< the rate: the floor of every bound. Range [0, 0.05], default 0.002. Larger: wider bounds.
+    float gyr_noise_rad_s;        ///< Usual disagreement of the two rates across the axis, rad/s. Range [1e-4, 1], default 0.03.
+    float acc_noise_m_s2;         ///< Usual disagreement of the two specific forces along the axis in slow motion, m/s^2, with
+                                  ///< what it lasts longer than that of the rates. Range [1e-3, 10], default 1.5.
+    float lever_arm_m;            ///< Growth of that disagreement with the product of the rates, m: the distance from the joint
+                                  ///< axis, again with its longer duration. Range [0, 5], default 1.
+    float gyr_bias_rad_s;         ///< Standard deviation of each component of a gyroscope's bias, rad/s.
+                                  ///< Range [1e-5, 0.2], default 0.01 (0.6 deg/s). 1e-5 turns the bias states off.
+    float acc_bias_m_s2;          ///< The same of an accelerometer, m/s^2. Range [1e-4, 5], default 0.5.
+    jcal_sign_hint_t sign_hint;   ///< Default JCAL_SIGN_UNKNOWN.
+} jcal_hinge_config_t;
+
+/// Number of features of the gyroscope residual; lib/calib/hinge_model.h says which.
+#define JCAL_HINGE_FEATURES 19
+
+/// Private: weighted sums over all samples, packed symmetric.
+typedef struct {
+    float gyr[190]; ///< 19 x 19: products of the gyroscope features.
+    float acc[28];  ///< 7 x 7: products of (a1, -a2, 1).
+} jcal_hinge_moments_t;
+
+/// Private: one axis, a direction across it, and the part of the gyroscope's bias across it.
+typedef struct {
+    jcal_vec3_t j;
+    jcal_vec3_t u;
+    jcal_vec3_t bias;
+} jcal_hinge_axis_t;
+
+/// Private: a point of the parameter space.
+typedef struct {
+    jcal_hinge_axis_t axis1;
+    jcal_hinge_axis_t axis2;
+} jcal_hinge_point_t;
+
+/// Private: how the gradient of one axis scatters, from which its bound is made.
+typedef struct {
+    jcal_vec3_t anchor;     ///< Axis at which the sums began; far from it they begin anew.
+    float fine[5];          ///< Score of the current fine block: axis u, v, bias u, v, second order.
+    float coarse[5];        ///< The same of the current coarse block.
+    float fine_scatter[10]; ///< Sum of score score' over fine blocks, packed 4 x 4.
+    float scatter[10];      ///< The same over coarse blocks.
+    float fine_second;      ///< Sum of squared second-order scores over fine blocks.
+    float second;           ///< The same over coarse blocks.
+    float information;      ///< Information that these sums cover.
+    float information_all;  ///< Information of all samples.
+    float fine_s;           ///< Time in the current fine block.
+    float coarse_s;         ///< Time in the current coarse block.
+    float time_s;           ///< Time that these sums cover.
+    float blocks;           ///< Finished coarse blocks.
+} jcal_hinge_scatter_t;
+
+/// Private: sums at the running estimate: how well it fits, how the sign pairings compare.
+typedef struct {
+    jcal_hinge_scatter_t axis1;
+    jcal_hinge_scatter_t axis2;
+    float fit_time_s;       ///< Time that the sums of the fit cover.
+    float across_error2;    ///< Integral of (|w1 x j1| - |w2 x j2|)^2.
+    float across_rate2;     ///< Integral of (|w1 x j1|^2 + |w2 x j2|^2) / 2.
+    float difference2;      ///< Integral of (|w1| - |w2|)^2.
+    float noise_sum;        ///< Weighted sum of (|w1 x j1| - |w2 x j2|)^2 ...
+    float noise_weight;     ///< ... and of its weights.
+    float pair_acc;         ///< Sum of accelerometer weights ...
+    float pair_acc2;        ///< ... and of their squares per second.
+    float turn_same;        ///< Cost of this pairing in the rate at which the rate across the axis turns about it.
+    float turn_other;       ///< The same of the other pairing.
+    float turn_time_s;      ///< Time for which that rate said something.
+    float excitation;       ///< Integral of the squared difference of |w1| and |w2| beyond what errors make; never restarted.
+    jcal_vec3_t before1;    ///< Earlier rates for the difference quotient.
+    jcal_vec3_t before2;
+    float before_s;         ///< Their age; negative: there are none.
+} jcal_hinge_evidence_t;
+
+/// Private: where the search for other minima stands.
+typedef struct {
+    jcal_hinge_point_t probe;
+    jcal_vec3_t flip1, flip2;    ///< Best axes of the other sign pairing.
+    jcal_vec3_t rival1, rival2;  ///< Best axes of another minimum.
+    float damping;
+    uint8_t rounds;              ///< Complete rounds over all starts since the estimate last changed its minimum.
+    uint8_t start;               ///< Which start the probe came from.
+    uint8_t iterations;          ///< Steps that the probe has made.
+    bool running, has_flip, has_rival;
+} jcal_hinge_search_t;
+
+/// Private: the last judgement.
+typedef struct {
+    float bound1_rad;
+    float bound2_rad;
+    float sign_margin;
+    float sign_progress;
+    uint8_t status, weak, hint, reason; ///< As in jcal_hinge_result_t.
+} jcal_hinge_verdict_t;
+
+/// The stream engine. Caller-owned, plain, copyable at any time between calls; all members are private.
+typedef struct {
+    jcal_hinge_config_t cfg;
+    jcal_gate_t gate;
+    jcal_inbox_t inbox;
+    jcal_hinge_moments_t moments;
+    jcal_hinge_evidence_t evidence;
+    jcal_hinge_point_t point;
+    jcal_hinge_search_t search;
+    jcal_hinge_verdict_t verdict;
+    jcal_vec3_t rest_acc1;       ///< Specific forces at which the present dwelling began ...
+    jcal_vec3_t rest_acc2;
+    float dwell_s;               ///< ... and how long it has lasted.
+    float rate_product;          ///< Low-passed |w1| |w2|.
+    float acc_constant_m_s2;     ///< Estimate of c = j1 . b_a1 - j2 . b_a2.
+    float damping;
+    float credit_s;              ///< Time not yet paid for with slices of work.
+    uint64_t last_us;
+    uint8_t slice;               ///< Next slice of the cycle.
+    uint8_t agreed;              ///< Judgements in a row that found nothing missing.
+    bool has_last, has_point;
+} jcal_hinge_t;
+
+/// The defaults described at each field.
+jcal_hinge_config_t jcal_hinge_config_default(void);
+
+/// Name of the first field that is out of its range, or null if the config is valid.
+const char *jcal_hinge_config_check(const jcal_hinge_config_t *config);
+
+/// Prepares an estimator; whatever `self` held before is lost.
+///
+/// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG (jcal_hinge_config_check says which field); self untouched.
+JCAL_MUST_CHECK jcal_status_t jcal_hinge_init(jcal_hinge_t *self, const jcal_hinge_config_t *config);
+
+/// Takes in one sample pair: checks it and puts it into the inbox. May run in an interrupt that preempts step.
+///
+/// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL.
+jcal_status_t jcal_hinge_push(jcal_hinge_t *self, const jcal_pair_t *pair);
+
+/// Works off one sample of the inbox and one bounded slice of solving.
+///
+/// Returns:  JCAL_OK; JCAL_IDLE if the inbox was empty; JCAL_ERR_ARG.
+jcal_status_t jcal_hinge_step(jcal_hinge_t *self);
+
+/// Push and step in one call, for those who need no split. Returns what push returned.
+jcal_status_t jcal_hinge_update(jcal_hinge_t *self, const jcal_pair_t *pair);
+
+/// Copies the current result. Errors: JCAL_ERR_ARG.
+jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out);
+
+/// Forgets all data, keeps the config. Errors: JCAL_ERR_ARG.
+jcal_status_t jcal_hinge_reset(jcal_hinge_t *self);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* JCAL_HINGE_H */

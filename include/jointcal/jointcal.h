@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// jointcal: finds out by itself how IMUs sit on the two sides of a joint.
+#ifndef JCAL_JOINTCAL_H
+#define JCAL_JOINTCAL_H
+
+#define JCAL_VERSION_MAJOR 0
+#define JCAL_VERSION_MINOR 1
+#define JCAL_VERSION_PATCH 0
+#define JCAL_VERSION_STRING "0.1.0"
+
+#include "jointcal/config.h"
+#include "jointcal/gate.h"
+#include "jointcal/hinge.h"
+#include "jointcal/hinge_window.h"
+#include "jointcal/quat.h"
+#include "jointcal/status.h"
+#include "jointcal/types.h"
+#include "jointcal/vec3.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Version of the library that is linked, as "MAJOR.MINOR.PATCH"; compare with JCAL_VERSION_STRING.
+const char *jcal_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* JCAL_JOINTCAL_H */

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Plain data types. SI units and radians everywhere.
+#ifndef JCAL_TYPES_H
+#define JCAL_TYPES_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// A 3-vector; the name of the variable says in which frame.
+typedef struct {
+    float x, y, z;
+} jcal_vec3_t;
+
+/// A unit quaternion (w, x, y, z). `q_a_b` rotates a vector from frame A to frame B: v_b = q v_a q*.
+typedef struct {
+    float w, x, y, z;
+} jcal_quat_t;
+
+/// One reading of one IMU in its own sensor frame.
+typedef struct {
+    jcal_vec3_t gyr_rad_s;   ///< Angular rate.
+    jcal_vec3_t acc_m_s2;    ///< Specific force: at rest 9.81 upward.
+} jcal_imu_t;
+
+/// Simultaneous readings of the two IMUs of a joint: 1 on the proximal segment, 2 on the distal one.
+typedef struct {
+    uint64_t t_us;   ///< Time in microseconds, any origin, strictly increasing.
+    jcal_imu_t imu1;
+    jcal_imu_t imu2;
+} jcal_pair_t;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* JCAL_TYPES_H */

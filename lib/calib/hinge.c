@@ -1,0 +1,280 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Stream engine of the hinge: config, samples into sums, and the schedule of the work. Method: docs/METHOD.md.
+#include "jointcal/hinge.h"
+
+#include "calib/hinge_evidence.h"
+#include "calib/hinge_judge.h"
+#include "calib/hinge_model.h"
+#include "calib/hinge_point.h"
+#include "calib/hinge_search.h"
+#include "jointcal/vec3.h"
+#include "math/scalar.h"
+#include "math/solve.h"
+#include "math/sym.h"
+#include "sample/inbox.h"
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+
+#define MICROSECONDS 1e-6f
+#define DEGREE 0.0174532925f
+
+/// A sample stands for the time since the one before it, but never for more than this, s.
+#define STEP_MAX_S 0.05f
+
+/// Keeps the weight 1 / (|w1|^2 + |w2|^2 + eps) finite at rest, (rad/s)^2; docs/METHOD.md section 2.
+#define RATE_EPS 0.005f
+
+/// Time constant of the product of the rates, s.
+#define PRODUCT_TIME_S 0.2f
+
+/// Readings of the same pose add little: their weight falls like 1 / (1 + t) while both specific forces stay within this, (m/s^2)^2.
+#define DWELL_ACC2 1.0f
+
+/// Sums are halved when they reach this: about half an hour of brisk motion. One more sample then changes a sum by 2^-17 of
+/// itself, a hundred times what float32 resolves.
+#define INFORMATION_MAX 5e7f
+#define ACC_WEIGHT_MAX 2e4f
+
+/// One slice of work is paid for by this much time, so that the work per second does not depend on the rate.
+#define SLICE_S 0.01f
+#define SLICES_MAX 5u
+#define SLICES_PER_CYCLE 8u
+
+typedef char jcal_hinge_fits_its_budget[(sizeof(jcal_hinge_t) <= 2048u) ? 1 : -1];
+
+jcal_hinge_config_t jcal_hinge_config_default(void)
+{
+    jcal_hinge_config_t config;
+    config.gate = jcal_gate_config_default();
+    config.max_bound_rad = 3.0f * DEGREE;
+    config.rate_mismatch = 0.002f;
+    config.gyr_noise_rad_s = 0.03f;
+    config.acc_noise_m_s2 = 1.5f;
+    config.lever_arm_m = 1.0f;
+    config.gyr_bias_rad_s = 0.01f;
+    config.acc_bias_m_s2 = 0.5f;
+    config.sign_hint = JCAL_SIGN_UNKNOWN;
+    return config;
+}
+
+typedef struct {
+    const char *name;
+    float value, low, high;
+} field_t;
+
+const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
+{
+    const field_t fields[] = {
+        {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
+        {"rate_mismatch", config->rate_mismatch, 0.0f, 0.05f},
+        {"gyr_noise_rad_s", config->gyr_noise_rad_s, 1e-4f, 1.0f},
+        {"acc_noise_m_s2", config->acc_noise_m_s2, 1e-3f, 10.0f},
+        {"lever_arm_m", config->lever_arm_m, 0.0f, 5.0f},
+        {"gyr_bias_rad_s", config->gyr_bias_rad_s, 1e-5f, 0.2f},
+        {"acc_bias_m_s2", config->acc_bias_m_s2, 1e-4f, 5.0f},
+    };
+    for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
+        if (!((fields[i].value >= fields[i].low) && (fields[i].value <= fields[i].high))) {
+            return fields[i].name;
+        }
+    }
+    const int hint = (int)config->sign_hint;
+    if ((hint < (int)JCAL_SIGN_UNKNOWN) || (hint > (int)JCAL_SIGN_OPPOSITE)) {
+        return "sign_hint";
+    }
+    return jcal_gate_config_check(&config->gate);
+}
+
+jcal_status_t jcal_hinge_init(jcal_hinge_t *self, const jcal_hinge_config_t *config)
+{
+    if ((self == NULL) || (config == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_hinge_config_check(config) != NULL) {
+        return JCAL_ERR_CONFIG;
+    }
+    const jcal_hinge_config_t cfg = *config; /* the caller may hand over self->cfg */
+    *self = (jcal_hinge_t){0};
+    self->cfg = cfg;
+    jcal_gate_init(&self->gate, &cfg.gate);
+    self->damping = JCAL_GN_DAMPING_START;
+    self->evidence.before_s = STEP_MAX_S + 1.0f; /* no earlier rates: older than any that count */
+    self->verdict.bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
+    self->verdict.bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
+    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
+    self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+    self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_hinge_reset(jcal_hinge_t *self)
+{
+    return (self == NULL) ? JCAL_ERR_ARG : jcal_hinge_init(self, &self->cfg);
+}
+
+jcal_status_t jcal_hinge_push(jcal_hinge_t *self, const jcal_pair_t *pair)
+{
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_inbox_full(&self->inbox)) {
+        return JCAL_ERR_FULL;
+    }
+    if (jcal_gate_check(&self->gate, pair) != JCAL_REJECT_NONE) {
+        return JCAL_REJECTED;
+    }
+    jcal_inbox_put(&self->inbox, pair);
+    return JCAL_OK;
+}
+
+/// Weight of the accelerometer reading: less in fast motion, where (17) of [OLS20] is not zero, and while a pose lasts.
+static float acc_weight(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+{
+    const float share = sample->dt_s / (sample->dt_s + PRODUCT_TIME_S);
+    self->rate_product += share * (sqrtf(sample->w1_2 * sample->w2_2) - self->rate_product);
+    const jcal_vec3_t away1 = jcal_vec3_sub(sample->a1, self->rest_acc1);
+    const jcal_vec3_t away2 = jcal_vec3_sub(sample->a2, self->rest_acc2);
+    if ((jcal_vec3_dot(away1, away1) + jcal_vec3_dot(away2, away2)) > DWELL_ACC2) {
+        self->rest_acc1 = sample->a1;
+        self->rest_acc2 = sample->a2;
+        self->dwell_s = 0.0f;
+    }
+    self->dwell_s += sample->dt_s;
+    const float violation = self->cfg.lever_arm_m * self->rate_product;
+    const float variance = (self->cfg.acc_noise_m_s2 * self->cfg.acc_noise_m_s2) + (violation * violation);
+    return (sample->dt_s / JCAL_HINGE_UNIT_S) / (variance * (1.0f + self->dwell_s));
+}
+
+static jcal_hinge_sample_t weigh(jcal_hinge_t *self, const jcal_pair_t *pair, float dt_s)
+{
+    jcal_hinge_sample_t sample;
+    sample.w1 = pair->imu1.gyr_rad_s;
+    sample.w2 = pair->imu2.gyr_rad_s;
+    sample.a1 = pair->imu1.acc_m_s2;
+    sample.a2 = pair->imu2.acc_m_s2;
+    sample.w1_2 = jcal_vec3_dot(sample.w1, sample.w1);
+    sample.w2_2 = jcal_vec3_dot(sample.w2, sample.w2);
+    sample.dt_s = dt_s;
+    const float noise = self->cfg.gyr_noise_rad_s;
+    sample.gyr_weight = (dt_s / JCAL_HINGE_UNIT_S) / (noise * noise * (sample.w1_2 + sample.w2_2 + RATE_EPS));
+    sample.acc_weight = acc_weight(self, &sample);
+    return sample;
+}
+
+static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+{
+    float z[JCAL_HINGE_FEATURES];
+    jcal_hinge_features(sample->w1, sample->w2, z);
+    jcal_sym_rank1(self->moments.gyr, JCAL_HINGE_FEATURES, z, sample->gyr_weight);
+    const float y[7] = {sample->a1.x, sample->a1.y, sample->a1.z, -sample->a2.x, -sample->a2.y, -sample->a2.z, 1.0f};
+    jcal_sym_rank1(self->moments.acc, 7u, y, sample->acc_weight);
+    jcal_hinge_evidence_watch(&self->evidence, sample);
+    if (self->has_point) {
+        jcal_hinge_evidence_add(&self->evidence, &self->point, self->acc_constant_m_s2, self->cfg.gyr_bias_rad_s, sample);
+    }
+    const float information = self->evidence.axis1.information_all + self->evidence.axis2.information_all;
+    if ((information > INFORMATION_MAX) || (self->moments.acc[jcal_sym_at(6u, 6u)] > ACC_WEIGHT_MAX)) {
+        jcal_sym_scale(self->moments.gyr, JCAL_HINGE_FEATURES, 0.5f);
+        jcal_sym_scale(self->moments.acc, 7u, 0.5f);
+        jcal_hinge_evidence_halve(&self->evidence);
+    }
+}
+
+/// One slice of the cycle: 1 step of the estimate, 6 of the global check, 1 judgement.
+static void work(jcal_hinge_t *self)
+{
+    if (self->slice == 0u) {
+        jcal_hinge_track(self);
+    } else if (self->slice < (SLICES_PER_CYCLE - 1u)) {
+        jcal_hinge_search(self);
+    } else {
+        jcal_hinge_judge(self);
+    }
+    self->slice = (uint8_t)((self->slice + 1u) % SLICES_PER_CYCLE);
+}
+
+jcal_status_t jcal_hinge_step(jcal_hinge_t *self)
+{
+    jcal_pair_t pair;
+    if (self == NULL) {
+        return JCAL_ERR_ARG;
+    }
+    if (!jcal_inbox_take(&self->inbox, &pair)) {
+        return JCAL_IDLE;
+    }
+    const float since_s = (float)(pair.t_us - self->last_us) * MICROSECONDS;
+    const bool first = !self->has_last;
+    self->last_us = pair.t_us;
+    self->has_last = true;
+    if (first) {
+        return JCAL_OK;
+    }
+    const float dt_s = jcal_min(since_s, STEP_MAX_S);
+    const jcal_hinge_sample_t sample = weigh(self, &pair, dt_s);
+    sum_up(self, &sample);
+    self->credit_s = jcal_min(self->credit_s + dt_s, (float)SLICES_MAX * SLICE_S);
+    for (unsigned i = 0u; (i < SLICES_MAX) && (self->credit_s >= SLICE_S); ++i) {
+        self->credit_s -= SLICE_S;
+        work(self);
+    }
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_hinge_update(jcal_hinge_t *self, const jcal_pair_t *pair)
+{
+    const jcal_status_t pushed = jcal_hinge_push(self, pair);
+    return (pushed == JCAL_OK) ? jcal_hinge_step(self) : pushed;
+}
+
+static float progress(float bound_rad, float max_bound_rad)
+{
+    return jcal_min(1.0f, max_bound_rad / jcal_max(bound_rad, FLT_MIN));
+}
+
+static void tell_verdict(const jcal_hinge_t *self, jcal_hinge_result_t *result)
+{
+    const jcal_hinge_verdict_t *const verdict = &self->verdict;
+    result->status = (jcal_calibration_t)verdict->status;
+    result->weak = (jcal_weak_t)verdict->weak;
+    result->hint = (jcal_hint_t)verdict->hint;
+    result->reason = (jcal_reason_t)verdict->reason;
+    result->uncertainty1_rad = verdict->bound1_rad;
+    result->uncertainty2_rad = verdict->bound2_rad;
+    result->sign_margin = verdict->sign_margin;
+    result->progress_axis1 = progress(verdict->bound1_rad, self->cfg.max_bound_rad);
+    result->progress_axis2 = progress(verdict->bound2_rad, self->cfg.max_bound_rad);
+    result->progress_sign = (self->cfg.sign_hint != JCAL_SIGN_UNKNOWN) ? 1.0f : verdict->sign_progress;
+    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
+    if (complaint != JCAL_REASON_NONE) { /* a sensor that fails sends nothing that a judgement would follow */
+        result->status = JCAL_COLLECTING;
+        result->reason = complaint;
+        result->hint = JCAL_HINT_CHECK_SENSORS;
+    }
+}
+
+jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
+{
+    if ((self == NULL) || (out == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    jcal_hinge_result_t result = {0};
+    result.engine = JCAL_ENGINE_STREAM;
+    tell_verdict(self, &result);
+    result.has_axes = self->has_point;
+    if (self->has_point) {
+        const float sign = jcal_hinge_main_sign(self->point.axis1.j);
+        result.axis1 = jcal_vec3_scale(self->point.axis1.j, sign);
+        result.axis2 = jcal_vec3_scale(self->point.axis2.j, sign);
+    }
+    result.t_us = self->last_us;
+    result.samples = self->gate.samples;
+    for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
+        result.rejected_by[i] = self->gate.rejected_by[i];
+        result.rejected += self->gate.rejected_by[i];
+    }
+    *out = result;
+    return JCAL_OK;
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// 95 % bounds of the two axes, from the moments and the scatter of the gradient. Private. docs/METHOD.md, section 5.
+#ifndef JCAL_HINGE_BOUNDS_H
+#define JCAL_HINGE_BOUNDS_H
+
+#include "calib/hinge_model.h"
+#include "jointcal/hinge.h"
+
+/// What a judgement rests on.
+typedef struct {
+    float bound1_rad;   ///< 95 % bound of axis 1; JCAL_BOUND_UNKNOWN_RAD if its direction is open.
+    float bound2_rad;
+    float inflation;    ///< How much more the gradient scatters than independent residuals of the assumed size would make it.
+} jcal_hinge_bounds_t;
+
+/// Bounds at the estimate; `lin` is the linearised cost there. False if there is not enough data for a statement.
+bool jcal_hinge_bounds(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin, jcal_hinge_bounds_t *out);
+
+#endif /* JCAL_HINGE_BOUNDS_H */

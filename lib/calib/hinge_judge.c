@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Readiness of the hinge. See hinge_judge.h.
+#include "calib/hinge_judge.h"
+
+#include "calib/hinge_bounds.h"
+#include "calib/hinge_model.h"
+#include "calib/hinge_point.h"
+#include "calib/hinge_search.h"
+#include "math/scalar.h"
+
+#include <math.h>
+
+/// Integral of the squared difference of the rates, beyond what errors make, that shows that the joint moves, rad^2/s:
+/// half a second at 0.3 rad/s.
+#define EXCITATION_MIN 0.05f
+
+/// The disagreement across the axis must be small beside the difference of the rates, or no hinge explains the data.
+#define MISFIT_SHARE 0.25f
+#define MISFIT_NOISE_RAD_S 0.02f
+
+/// Durations after which residuals count as independent, s, when the pairings are compared.
+#define ACC_MEMORY_S 0.3f
+#define TURN_MEMORY_S 0.1f
+/// Logarithm of the odds that the sign pairing needs, and the ratio of costs, and limits of a believable ratio.
+#define SIGN_EVIDENCE_MIN 7.0f
+#define SIGN_MARGIN_MIN 1.3f
+#define RATIO_MIN 1e-3f
+#define RATIO_MAX 1e6f
+
+/// Another minimum must cost this much more, in units of the scatter, and this many times as much.
+#define RIVAL_COST_MIN 15.0f
+#define RIVAL_RATIO_MIN 1.5f
+#define INFLATION_MIN 0.3f
+
+/// Judgements in a row, one each 80 ms, that must agree before `ready`.
+#define AGREED_MIN 3u
+
+/// How the two sign pairings compare.
+typedef struct {
+    float margin;    ///< Cost of the other over the cost of this one.
+    float evidence;  ///< Logarithm of the odds for this one.
+} sign_t;
+
+static float ratio_of(float other, float same)
+{
+    return jcal_min(jcal_max(other / jcal_max(same, 1e-20f), RATIO_MIN), RATIO_MAX);
+}
+
+/// With unknown noise, N independent residuals whose sum of squares is r times larger speak with the odds r^(N / 2).
+static sign_t compare_signs(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin)
+{
+    sign_t sign = {0.0f, 0.0f};
+    if (!self->search.has_flip) {
+        return sign;
+    }
+    const jcal_hinge_evidence_t *const evidence = &self->evidence;
+    jcal_hinge_point_t flip = self->point;
+    jcal_hinge_axis_set(&flip.axis1, self->search.flip1);
+    jcal_hinge_axis_set(&flip.axis2, self->search.flip2);
+    const float acc_other = jcal_hinge_cost_acc(&self->moments, &self->cfg, &flip);
+    const float gyr_other = jcal_hinge_cost_gyr(&self->moments, &flip);
+    const float acc_time_s = (evidence->pair_acc * evidence->pair_acc) / jcal_max(evidence->pair_acc2, 1e-20f);
+    const float acc_odds = (acc_time_s / ACC_MEMORY_S) * jcal_ln(ratio_of(acc_other, lin->cost_acc));
+    const float turn_odds = (evidence->turn_time_s / TURN_MEMORY_S)
+                            * jcal_ln(ratio_of(evidence->turn_other, evidence->turn_same));
+    sign.evidence = 0.5f * (acc_odds + turn_odds);
+    sign.margin = (acc_other + gyr_other + evidence->turn_other)
+                  / jcal_max(lin->cost_acc + lin->cost_gyr + evidence->turn_same, 1e-20f);
+    return sign;
+}
+
+/// True if another minimum explains the data about as well, or if not all starts have been tried yet.
+static bool has_rival(const jcal_hinge_t *self, float cost, float inflation)
+{
+    if (self->search.rounds == 0u) {
+        return true;
+    }
+    if (!self->search.has_rival) {
+        return false;
+    }
+    const float other = jcal_hinge_cost_at(self, self->search.rival1, self->search.rival2);
+    const bool much_worse = (other - cost) > (RIVAL_COST_MIN * jcal_max(inflation, INFLATION_MIN));
+    return !(much_worse && (other > (RIVAL_RATIO_MIN * cost)));
+}
+
+/// True if the rates across the estimated axes agree as those of a hinge do.
+static bool fits(const jcal_hinge_evidence_t *evidence)
+{
+    const float time_s = jcal_max(evidence->fit_time_s, 1e-9f);
+    const float error = sqrtf(evidence->across_error2 / time_s);
+    const float difference = sqrtf(evidence->difference2 / time_s);
+    return error < ((MISFIT_SHARE * difference) + MISFIT_NOISE_RAD_S);
+}
+
+static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
+{
+    switch (reason) {
+    case JCAL_REASON_NO_DATA:
+    case JCAL_REASON_NO_MOTION:
+    case JCAL_REASON_OTHER_MINIMUM:
+        return JCAL_HINT_MOVE_JOINT;
+    case JCAL_REASON_UNCERTAIN:
+        return (weak == JCAL_WEAK_AXIS1) ? JCAL_HINT_MOVE_SEGMENT1 : JCAL_HINT_MOVE_SEGMENT2;
+    case JCAL_REASON_SIGN_OPEN:
+        return JCAL_HINT_TILT_AXIS;
+    case JCAL_REASON_DOES_NOT_FIT:
+    case JCAL_REASON_BAD_SAMPLES:
+    case JCAL_REASON_WRONG_UNITS_GYR:
+    case JCAL_REASON_WRONG_UNITS_ACC:
+        return JCAL_HINT_CHECK_SENSORS;
+    case JCAL_REASON_NONE:
+    default:
+        return JCAL_HINT_NONE;
+    }
+}
+
+/// The first thing that keeps the estimate from being ready, the worst first.
+static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_bounds_t *bounds, const sign_t *sign,
+                                 const jcal_hinge_lin_t *lin)
+{
+    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
+    if (complaint != JCAL_REASON_NONE) {
+        return complaint;
+    }
+    if (self->evidence.excitation < EXCITATION_MIN) {
+        return JCAL_REASON_NO_MOTION;
+    }
+    if (!fits(&self->evidence)) {
+        return JCAL_REASON_DOES_NOT_FIT;
+    }
+    if (!(jcal_max(bounds->bound1_rad, bounds->bound2_rad) <= self->cfg.max_bound_rad)) {
+        return JCAL_REASON_UNCERTAIN;
+    }
+    const bool hinted = self->cfg.sign_hint != JCAL_SIGN_UNKNOWN;
+    if (!hinted && !((sign->evidence > SIGN_EVIDENCE_MIN) && (sign->margin > SIGN_MARGIN_MIN))) {
+        return JCAL_REASON_SIGN_OPEN;
+    }
+    return has_rival(self, lin->cost_acc + lin->cost_gyr, bounds->inflation) ? JCAL_REASON_OTHER_MINIMUM : JCAL_REASON_NONE;
+}
+
+static jcal_weak_t weak_for(jcal_reason_t reason, const jcal_hinge_bounds_t *bounds)
+{
+    if (reason == JCAL_REASON_NONE) {
+        return JCAL_WEAK_NONE;
+    }
+    if (reason == JCAL_REASON_SIGN_OPEN) {
+        return JCAL_WEAK_SIGN;
+    }
+    return (bounds->bound1_rad > bounds->bound2_rad) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
+}
+
+static void report(jcal_hinge_t *self, jcal_reason_t found, const jcal_hinge_bounds_t *bounds, const sign_t *sign)
+{
+    jcal_hinge_verdict_t *const verdict = &self->verdict;
+    if (found != JCAL_REASON_NONE) {
+        self->agreed = 0u;
+    } else if (self->agreed < AGREED_MIN) {
+        self->agreed = (uint8_t)(self->agreed + 1u);
+    }
+    const bool ready = self->agreed >= AGREED_MIN;
+    const jcal_reason_t reason = (!ready && (found == JCAL_REASON_NONE)) ? JCAL_REASON_UNCERTAIN : found;
+    const bool ambiguous = (reason == JCAL_REASON_SIGN_OPEN) || (reason == JCAL_REASON_OTHER_MINIMUM);
+    const jcal_weak_t weak = weak_for(reason, bounds);
+    verdict->status = (uint8_t)(ready ? JCAL_READY : (ambiguous ? JCAL_AMBIGUOUS : JCAL_COLLECTING));
+    verdict->reason = (uint8_t)reason;
+    verdict->weak = (uint8_t)weak;
+    verdict->hint = (uint8_t)hint_for(reason, weak);
+    verdict->bound1_rad = bounds->bound1_rad;
+    verdict->bound2_rad = bounds->bound2_rad;
+    verdict->sign_margin = sign->margin;
+    verdict->sign_progress = jcal_max(0.0f, jcal_min(1.0f, sign->evidence / SIGN_EVIDENCE_MIN));
+}
+
+void jcal_hinge_judge(jcal_hinge_t *self)
+{
+    const sign_t nothing = {0.0f, 0.0f};
+    jcal_hinge_bounds_t bounds = {JCAL_BOUND_UNKNOWN_RAD, JCAL_BOUND_UNKNOWN_RAD, 0.0f};
+    jcal_hinge_lin_t lin;
+    if (self->has_point) {
+        jcal_hinge_linearise(&self->moments, &self->cfg, &self->point, &lin);
+    }
+    if (!self->has_point || !jcal_hinge_bounds(self, &lin, &bounds)) {
+        const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
+        report(self, (complaint != JCAL_REASON_NONE) ? complaint : JCAL_REASON_NO_DATA, &bounds, &nothing);
+        return;
+    }
+    const sign_t sign = compare_signs(self, &lin);
+    report(self, find_reason(self, &bounds, &sign, &lin), &bounds, &sign);
+}

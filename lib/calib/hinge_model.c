@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// The hinge constraint as a quadratic form in moments. See hinge_model.h for the equations.
+#include "calib/hinge_model.h"
+
+#include "calib/hinge_point.h"
+#include "jointcal/vec3.h"
+#include "math/sym.h"
+
+/// Accelerometer features: a_1, -a_2 and the constant.
+#define ACC_AXES 6u
+
+/// The six products of a vector with itself, in the order xx, yy, zz, xy, xz, yz.
+static void products(jcal_vec3_t w, float *out)
+{
+    out[0] = w.x * w.x;
+    out[1] = w.y * w.y;
+    out[2] = w.z * w.z;
+    out[3] = w.x * w.y;
+    out[4] = w.x * w.z;
+    out[5] = w.y * w.z;
+}
+
+static void store(jcal_vec3_t v, float scale, float *out)
+{
+    out[0] = scale * v.x;
+    out[1] = scale * v.y;
+    out[2] = scale * v.z;
+}
+
+void jcal_hinge_features(jcal_vec3_t w1, jcal_vec3_t w2, float z[JCAL_HINGE_FEATURES])
+{
+    products(w1, &z[JCAL_HINGE_Z_W1W1]);
+    products(w2, &z[JCAL_HINGE_Z_W2W2]);
+    store(w1, 1.0f, &z[JCAL_HINGE_Z_W1]);
+    store(w2, 1.0f, &z[JCAL_HINGE_Z_W2]);
+    z[JCAL_HINGE_Z_ONE] = 1.0f;
+}
+
+/// Coefficients of |(w - b) x j|^2 = w' (I - j j') w - 2 b . w + |b|^2 for b across j.
+static void coefficients_of_sensor(const jcal_hinge_axis_t *axis, float sign, float *products_out, float *linear_out)
+{
+    const jcal_vec3_t j = axis->j;
+    products_out[0] = sign * (1.0f - (j.x * j.x));
+    products_out[1] = sign * (1.0f - (j.y * j.y));
+    products_out[2] = sign * (1.0f - (j.z * j.z));
+    products_out[3] = sign * (-2.0f * j.x * j.y);
+    products_out[4] = sign * (-2.0f * j.x * j.z);
+    products_out[5] = sign * (-2.0f * j.y * j.z);
+    store(axis->bias, -2.0f * sign, linear_out);
+}
+
+void jcal_hinge_coefficients(const jcal_hinge_point_t *point, float f[JCAL_HINGE_FEATURES])
+{
+    coefficients_of_sensor(&point->axis1, 1.0f, &f[JCAL_HINGE_Z_W1W1], &f[JCAL_HINGE_Z_W1]);
+    coefficients_of_sensor(&point->axis2, -1.0f, &f[JCAL_HINGE_Z_W2W2], &f[JCAL_HINGE_Z_W2]);
+    f[JCAL_HINGE_Z_ONE] = jcal_vec3_dot(point->axis1.bias, point->axis1.bias)
+                          - jcal_vec3_dot(point->axis2.bias, point->axis2.bias);
+}
+
+/// Column of df/d(axis) along the tangent t: d(I - j j') = -(j t' + t j'), and the bias stays across j: d(P b) = -j (t . b).
+static void axis_column(const jcal_hinge_axis_t *axis, jcal_vec3_t t, float sign, float products_out[6])
+{
+    const jcal_vec3_t j = axis->j;
+    products_out[0] = sign * (-2.0f * j.x * t.x);
+    products_out[1] = sign * (-2.0f * j.y * t.y);
+    products_out[2] = sign * (-2.0f * j.z * t.z);
+    products_out[3] = sign * (-2.0f * ((j.x * t.y) + (j.y * t.x)));
+    products_out[4] = sign * (-2.0f * ((j.x * t.z) + (j.z * t.x)));
+    products_out[5] = sign * (-2.0f * ((j.y * t.z) + (j.z * t.y)));
+}
+
+/// Fills the 19 x 8 derivative F of f; columns: axis1 u, v; axis2 u, v; bias1 u, v; bias2 u, v.
+static void derivative(const jcal_hinge_point_t *point, float bias_unit, float columns[JCAL_HINGE_UNKNOWNS][JCAL_HINGE_FEATURES])
+{
+    for (unsigned sensor = 0u; sensor < 2u; ++sensor) {
+        const jcal_hinge_axis_t *const axis = (sensor == 0u) ? &point->axis1 : &point->axis2;
+        const float sign = (sensor == 0u) ? 1.0f : -1.0f;
+        const unsigned z_products = (sensor == 0u) ? JCAL_HINGE_Z_W1W1 : JCAL_HINGE_Z_W2W2;
+        const unsigned z_linear = (sensor == 0u) ? JCAL_HINGE_Z_W1 : JCAL_HINGE_Z_W2;
+        const jcal_vec3_t tangent[2] = {axis->u, jcal_hinge_v(axis)};
+        for (unsigned k = 0u; k < 2u; ++k) {
+            const jcal_vec3_t t = tangent[k];
+            float *const of_axis = columns[(2u * sensor) + k];
+            float *const of_bias = columns[JCAL_HINGE_AXIS_UNKNOWNS + (2u * sensor) + k];
+            for (unsigned i = 0u; i < JCAL_HINGE_FEATURES; ++i) {
+                of_axis[i] = 0.0f;
+                of_bias[i] = 0.0f;
+            }
+            axis_column(axis, t, sign, &of_axis[z_products]);
+            store(axis->j, 2.0f * sign * jcal_vec3_dot(t, axis->bias), &of_axis[z_linear]);
+            store(t, -2.0f * sign * bias_unit, &of_bias[z_linear]);
+            of_bias[JCAL_HINGE_Z_ONE] = 2.0f * sign * bias_unit * jcal_vec3_dot(t, axis->bias);
+        }
+    }
+}
+
+static float dot(const float *a, const float *b, unsigned n)
+{
+    float sum = 0.0f;
+    for (unsigned i = 0u; i < n; ++i) {
+        sum += a[i] * b[i];
+    }
+    return sum;
+}
+
+/// out (6) <- A y with A = S - s s' / (n + prior): the second moments with the constant c eliminated.
+static void acc_times(const jcal_hinge_moments_t *moments, float prior, const float y[ACC_AXES], float out[ACC_AXES])
+{
+    jcal_sym_times(moments->acc, ACC_AXES, y, out);
+    const float *const sums = &moments->acc[JCAL_SYM_SIZE(ACC_AXES)];
+    const float c = dot(sums, y, ACC_AXES) / (sums[ACC_AXES] + prior);
+    for (unsigned i = 0u; i < ACC_AXES; ++i) {
+        out[i] -= sums[i] * c;
+    }
+}
+
+static void acc_unknowns(const jcal_hinge_point_t *point, float y[ACC_AXES])
+{
+    store(point->axis1.j, 1.0f, &y[0]);
+    store(point->axis2.j, 1.0f, &y[3]);
+}
+
+/// Prior weight of the constant c = j1 . b_a1 - j2 . b_a2 in the units of the normalised cost.
+static float acc_prior(float acc_bias_m_s2)
+{
+    return 1.0f / (2.0f * acc_bias_m_s2 * acc_bias_m_s2);
+}
+
+float jcal_hinge_cost_gyr(const jcal_hinge_moments_t *moments, const jcal_hinge_point_t *point)
+{
+    float f[JCAL_HINGE_FEATURES];
+    jcal_hinge_coefficients(point, f);
+    return jcal_sym_quadratic(moments->gyr, JCAL_HINGE_FEATURES, f);
+}
+
+float jcal_hinge_cost_acc(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg,
+                          const jcal_hinge_point_t *point)
+{
+    float y[ACC_AXES];
+    float ay[ACC_AXES];
+    acc_unknowns(point, y);
+    acc_times(moments, acc_prior(cfg->acc_bias_m_s2), y, ay);
+    return dot(y, ay, ACC_AXES);
+}
+
+/// Adds the accelerometer part; it does not depend on the gyroscope biases.
+static void linearise_acc(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg,
+                          const jcal_hinge_point_t *point, jcal_hinge_lin_t *out)
+{
+    const float prior = acc_prior(cfg->acc_bias_m_s2);
+    float columns[JCAL_HINGE_AXIS_UNKNOWNS][ACC_AXES] = {{0.0f}};
+    store(point->axis1.u, 1.0f, &columns[0][0]);
+    store(jcal_hinge_v(&point->axis1), 1.0f, &columns[1][0]);
+    store(point->axis2.u, 1.0f, &columns[2][3]);
+    store(jcal_hinge_v(&point->axis2), 1.0f, &columns[3][3]);
+    float y[ACC_AXES];
+    float ay[ACC_AXES];
+    acc_unknowns(point, y);
+    acc_times(moments, prior, y, ay);
+    out->cost_acc = dot(y, ay, ACC_AXES);
+    for (unsigned r = 0u; r < JCAL_HINGE_AXIS_UNKNOWNS; ++r) {
+        float at[ACC_AXES];
+        acc_times(moments, prior, columns[r], at);
+        out->gradient[r] += dot(columns[r], ay, ACC_AXES);
+        for (unsigned c = 0u; c <= r; ++c) {
+            out->matrix[jcal_sym_at(r, c)] += dot(columns[c], at, ACC_AXES);
+        }
+    }
+}
+
+/// Biases are counted in units of their standard deviation, so their prior is the identity.
+static void add_bias_prior(float unit, const jcal_hinge_point_t *point, jcal_hinge_lin_t *out)
+{
+    const jcal_hinge_axis_t *const axes[2] = {&point->axis1, &point->axis2};
+    for (unsigned sensor = 0u; sensor < 2u; ++sensor) {
+        const unsigned r = JCAL_HINGE_AXIS_UNKNOWNS + (2u * sensor);
+        out->gradient[r] += jcal_vec3_dot(axes[sensor]->bias, axes[sensor]->u) / unit;
+        out->gradient[r + 1u] += jcal_vec3_dot(axes[sensor]->bias, jcal_hinge_v(axes[sensor])) / unit;
+        out->matrix[jcal_sym_at(r, r)] += 1.0f;
+        out->matrix[jcal_sym_at(r + 1u, r + 1u)] += 1.0f;
+    }
+}
+
+/// (a, b) <- (a + b, b - a).
+static void split(float *a, float *b, unsigned n)
+{
+    for (unsigned i = 0u; i < n; ++i) {
+        const float first = a[i];
+        a[i] = first + b[i];
+        b[i] -= first;
+    }
+}
+
+void jcal_hinge_linearise(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg,
+                          const jcal_hinge_point_t *point, jcal_hinge_lin_t *out)
+{
+    float f[JCAL_HINGE_FEATURES];
+    float mf[JCAL_HINGE_FEATURES];
+    float columns[JCAL_HINGE_UNKNOWNS][JCAL_HINGE_FEATURES];
+    jcal_hinge_coefficients(point, f);
+    jcal_sym_times(moments->gyr, JCAL_HINGE_FEATURES, f, mf);
+    out->cost_gyr = dot(f, mf, JCAL_HINGE_FEATURES);
+    derivative(point, cfg->gyr_bias_rad_s, columns);
+    for (unsigned r = 0u; r < JCAL_HINGE_UNKNOWNS; ++r) {
+        float mt[JCAL_HINGE_FEATURES];
+        jcal_sym_times(moments->gyr, JCAL_HINGE_FEATURES, columns[r], mt);
+        out->gradient[r] = dot(columns[r], mf, JCAL_HINGE_FEATURES);
+        for (unsigned c = 0u; c <= r; ++c) {
+            out->matrix[jcal_sym_at(r, c)] = dot(columns[c], mt, JCAL_HINGE_FEATURES);
+        }
+    }
+    linearise_acc(moments, cfg, point, out);
+    add_bias_prior(cfg->gyr_bias_rad_s, point, out);
+}
+
+/// (f' - f)' M (f' + f) for the two parts, so that nothing is lost when both costs are large and nearly equal.
+float jcal_hinge_change(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg, const jcal_hinge_point_t *from,
+                        const jcal_hinge_point_t *to)
+{
+    float f[JCAL_HINGE_FEATURES];
+    float g[JCAL_HINGE_FEATURES];
+    jcal_hinge_coefficients(from, f);
+    jcal_hinge_coefficients(to, g);
+    split(f, g, JCAL_HINGE_FEATURES);
+    float y[ACC_AXES];
+    float x[ACC_AXES];
+    float sum[ACC_AXES];
+    acc_unknowns(from, y);
+    acc_unknowns(to, x);
+    split(y, x, ACC_AXES);
+    acc_times(moments, acc_prior(cfg->acc_bias_m_s2), y, sum);
+    const float unit = 1.0f / (cfg->gyr_bias_rad_s * cfg->gyr_bias_rad_s);
+    const float of_biases = jcal_vec3_dot(to->axis1.bias, to->axis1.bias) - jcal_vec3_dot(from->axis1.bias, from->axis1.bias)
+                            + jcal_vec3_dot(to->axis2.bias, to->axis2.bias) - jcal_vec3_dot(from->axis2.bias, from->axis2.bias);
+    return jcal_sym_bilinear(moments->gyr, JCAL_HINGE_FEATURES, f, g) + dot(x, sum, ACC_AXES) + (unit * of_biases);
+}
+
+float jcal_hinge_acc_constant(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg,
+                              const jcal_hinge_point_t *point)
+{
+    float y[ACC_AXES];
+    acc_unknowns(point, y);
+    const float *const sums = &moments->acc[JCAL_SYM_SIZE(ACC_AXES)];
+    return dot(sums, y, ACC_AXES) / (sums[ACC_AXES] + acc_prior(cfg->acc_bias_m_s2));
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Follows the best minimum and looks for others, one bounded slice at a time. Private.
+#ifndef JCAL_HINGE_SEARCH_H
+#define JCAL_HINGE_SEARCH_H
+
+#include "jointcal/hinge.h"
+
+/// One Gauss-Newton step of the estimate over all 8 unknowns.
+void jcal_hinge_track(jcal_hinge_t *self);
+
+/// One slice of the global check: begins a probe from the next start, or moves it by one step, or files what it found.
+///
+/// Starts: the 9 pairs of eigenvectors of the rates' second moments, each with both sign pairings, then the present estimate
+/// with axis 2 turned round.
+void jcal_hinge_search(jcal_hinge_t *self);
+
+/// Cost of both parts at a point, the prior of the biases left out.
+float jcal_hinge_cost(const jcal_hinge_t *self, const jcal_hinge_point_t *point);
+
+/// The same at other axes, with the estimate's biases.
+float jcal_hinge_cost_at(const jcal_hinge_t *self, jcal_vec3_t j1, jcal_vec3_t j2);
+
+#endif /* JCAL_HINGE_SEARCH_H */

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Cyclic Jacobi eigenvalues (Golub and Van Loan, Matrix Computations, 8.5).
+#include "math/eig.h"
+
+#include <float.h>
+#include <math.h>
+
+/* The matrix on its way to a diagonal one, and the rotations applied so far. */
+typedef struct {
+    float a[JCAL_SYM_SIZE(JCAL_EIG_MAX)]; /* n x n, packed */
+    float v[JCAL_EIG_MAX * JCAL_EIG_MAX]; /* n x n, rows are eigenvectors */
+    size_t n;
+} jacobi_t;
+
+/* A rotation in the plane (p, q). */
+typedef struct {
+    float c, s;
+} rotation_t;
+
+static void jacobi_begin(jacobi_t *self, const float *m, size_t n)
+{
+    self->n = n;
+    for (size_t k = 0u; k < JCAL_SYM_SIZE(n); ++k) {
+        self->a[k] = m[k];
+    }
+    for (size_t i = 0u; i < n; ++i) {
+        for (size_t j = 0u; j < n; ++j) {
+            self->v[(i * n) + j] = (i == j) ? 1.0f : 0.0f;
+        }
+    }
+}
+
+/* The smaller of the two rotations that make a(p, q) zero; a(p, q) is not zero. */
+static rotation_t annihilating_rotation(float app, float aqq, float apq)
+{
+    const float tau = (aqq - app) / (2.0f * apq);
+    /* For a huge tau the square is infinite and t is 0, which is right. */
+    const float t = ((tau >= 0.0f) ? 1.0f : -1.0f) / (fabsf(tau) + sqrtf(1.0f + (tau * tau)));
+    const float c = 1.0f / sqrtf(1.0f + (t * t));
+    const rotation_t r = {c, t * c};
+    return r;
+}
+
+/* a <- R^T a R and v <- R^T v for the rotation that makes a(p, q) zero, p < q. */
+static void annihilate(jacobi_t *self, size_t p, size_t q)
+{
+    const size_t n = self->n;
+    const float apq = self->a[jcal_sym_at(p, q)];
+    const float app = self->a[jcal_sym_at(p, p)];
+    const float aqq = self->a[jcal_sym_at(q, q)];
+    if (apq == 0.0f) {
+        return;
+    }
+    const rotation_t r = annihilating_rotation(app, aqq, apq);
+    for (size_t k = 0u; k < n; ++k) {
+        if ((k != p) && (k != q)) {
+            const float akp = self->a[jcal_sym_at(k, p)];
+            const float akq = self->a[jcal_sym_at(k, q)];
+            self->a[jcal_sym_at(k, p)] = (r.c * akp) - (r.s * akq);
+            self->a[jcal_sym_at(k, q)] = (r.s * akp) + (r.c * akq);
+        }
+        const float vp = self->v[(p * n) + k];
+        const float vq = self->v[(q * n) + k];
+        self->v[(p * n) + k] = (r.c * vp) - (r.s * vq);
+        self->v[(q * n) + k] = (r.s * vp) + (r.c * vq);
+    }
+    const float t = r.s / r.c;
+    self->a[jcal_sym_at(p, p)] = app - (t * apq);
+    self->a[jcal_sym_at(q, q)] = aqq + (t * apq);
+    self->a[jcal_sym_at(p, q)] = 0.0f;
+}
+
+/* Sum of |a(p, q)| above the diagonal. */
+static float off_diagonal(const jacobi_t *self)
+{
+    float sum = 0.0f;
+    for (size_t p = 1u; p < self->n; ++p) {
+        for (size_t q = 0u; q < p; ++q) {
+            sum += fabsf(self->a[jcal_sym_at(p, q)]);
+        }
+    }
+    return sum;
+}
+
+/* Row of the largest eigenvalue that is not above `taken` others: selection without recursion or swaps. */
+static size_t row_of_rank(const jacobi_t *self, size_t rank)
+{
+    size_t row = 0u;
+    for (size_t i = 0u; i < self->n; ++i) {
+        const float value = self->a[jcal_sym_at(i, i)];
+        size_t above = 0u;
+        for (size_t k = 0u; k < self->n; ++k) {
+            const float other = self->a[jcal_sym_at(k, k)];
+            above += ((other > value) || ((other == value) && (k < i))) ? 1u : 0u;
+        }
+        row = (above == rank) ? i : row;
+    }
+    return row;
+}
+
+/* +1 or -1: the sign of the component of largest magnitude. */
+static float dominant_sign(const float *v, size_t n)
+{
+    float dominant = 0.0f;
+    for (size_t k = 0u; k < n; ++k) {
+        dominant = (fabsf(v[k]) > fabsf(dominant)) ? v[k] : dominant;
+    }
+    return (dominant < 0.0f) ? -1.0f : 1.0f;
+}
+
+jcal_status_t jcal_eig_symmetric(const float *m, size_t n, float *values, float *vectors)
+{
+    if ((m == NULL) || (values == NULL) || (vectors == NULL) || (n < 1u) || (n > JCAL_EIG_MAX)) {
+        return JCAL_ERR_ARG;
+    }
+    for (size_t k = 0u; k < JCAL_SYM_SIZE(n); ++k) {
+        if (!(fabsf(m[k]) <= FLT_MAX)) {
+            return JCAL_ERR_SINGULAR;
+        }
+    }
+    jacobi_t work;
+    jacobi_begin(&work, m, n);
+    for (size_t sweep = 0u; (sweep < JCAL_EIG_SWEEPS) && (off_diagonal(&work) > 0.0f); ++sweep) {
+        for (size_t p = 0u; (p + 1u) < n; ++p) {
+            for (size_t q = p + 1u; q < n; ++q) {
+                annihilate(&work, p, q);
+            }
+        }
+    }
+    for (size_t rank = 0u; rank < n; ++rank) {
+        const size_t row = row_of_rank(&work, rank);
+        const float sign = dominant_sign(&work.v[row * n], n);
+        values[rank] = work.a[jcal_sym_at(row, row)];
+        for (size_t k = 0u; k < n; ++k) {
+            vectors[(rank * n) + k] = sign * work.v[(row * n) + k];
+        }
+    }
+    return JCAL_OK;
+}

@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: MIT */
+/* The program `jointcal`: picks the subcommand. */
+#include "hinge_command.h"
+#include "jointcal/jointcal.h"
+#include "message.h"
+
+#include <argp.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+
+typedef struct {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    char *full_name; /* argp shows argv[0] in its messages */
+} command_t;
+
+static char hinge_name[] = "jointcal hinge";
+
+static const command_t COMMANDS[] = {{"hinge", hinge_command, hinge_name}};
+
+#define COMMAND_COUNT (sizeof COMMANDS / sizeof COMMANDS[0])
+
+/* Where the subcommand stands. */
+typedef struct {
+    const command_t *command;
+    int index;
+} choice_t;
+
+static void print_version(FILE *stream, struct argp_state *state)
+{
+    (void)state;
+    (void)fprintf(stream, "jointcal %s\n", jcal_version());
+}
+
+static const command_t *find_command(const char *name)
+{
+    for (size_t k = 0; k < COMMAND_COUNT; k++) {
+        if (strcmp(name, COMMANDS[k].name) == 0) {
+            return &COMMANDS[k];
+        }
+    }
+    return NULL;
+}
+
+/* Stops at the first argument that is no option: the rest belongs to the subcommand. */
+static error_t parse(int key, char *argument, struct argp_state *state)
+{
+    choice_t *choice = state->input;
+    if (key == ARGP_KEY_ARG) {
+        choice->command = find_command(argument);
+        choice->index = state->next - 1;
+        if (choice->command == NULL) {
+            argp_error(state, "no subcommand '%s'; there is: hinge", argument);
+        }
+        state->next = state->argc;
+        return 0;
+    }
+    if (key == ARGP_KEY_NO_ARGS) {
+        argp_error(state, "which subcommand? There is: hinge");
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static const struct argp PARSER = {
+    .parser = parse,
+    .args_doc = "hinge RECORDING.csv [OPTION...]",
+    .doc = "Finds out how the IMUs of a recording sit on the two sides of a joint.\v"
+           "Subcommands:\n"
+           "  hinge    both axes of a joint with one axis, like a knee or a finger joint\n"
+           "\n"
+           "'jointcal hinge --help' tells all about it.",
+};
+
+int main(int argc, char **argv)
+{
+    argp_program_version_hook = print_version;
+    argp_err_exit_status = EXIT_INPUT;
+    /* A closed pipe shall be an error that we can report, not a silent end. */
+    (void)signal(SIGPIPE, SIG_IGN);
+
+    choice_t choice = {NULL, 0};
+    (void)argp_parse(&PARSER, argc, argv, ARGP_IN_ORDER, NULL, &choice);
+    if (choice.command == NULL) {
+        return EXIT_INPUT;
+    }
+    argv[choice.index] = choice.command->full_name;
+    return choice.command->run(argc - choice.index, argv + choice.index);
+}

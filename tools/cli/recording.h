@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// A recording of two IMUs as CSV: one header line, columns found by name, one sample pair per row.
+#ifndef JCAL_CLI_RECORDING_H
+#define JCAL_CLI_RECORDING_H
+
+#include "csv.h"
+#include "jointcal/types.h"
+
+/// t_s and twelve sensor components.
+#define RECORDING_COLUMNS 13
+
+typedef enum {
+    RECORDING_ROW,    ///< A row was read.
+    RECORDING_END,    ///< There are no more rows.
+    RECORDING_BAD,    ///< The file is no recording: see fault.
+    RECORDING_FAILED  ///< It could not be read to the end, or memory ran out.
+} recording_event_t;
+
+/// What is wrong and where; line and column count from 1, and 0 means that there is none to name.
+typedef struct {
+    uint64_t line;
+    uint64_t column;
+    char text[320];
+} recording_fault_t;
+
+/// One row. Empty cells are NaN; cells that are not finite, or too large for a float, are NaN or infinite.
+typedef struct {
+    bool has_time;  ///< False if the time is empty or not finite.
+    int64_t t_us;   ///< As in the file, from whatever origin.
+    jcal_imu_t imu1;
+    jcal_imu_t imu2;
+} recording_row_t;
+
+typedef struct {
+    csv_t csv;
+    recording_fault_t fault;
+    size_t header_cells;
+    size_t index[RECORDING_COLUMNS]; /* cell of each column we want */
+} recording_t;
+
+/// Reads the header. RECORDING_ROW if all columns are there, else RECORDING_BAD or RECORDING_FAILED.
+recording_event_t recording_open(recording_t *recording, csv_read_t *read, void *context);
+
+/// Reads one row.
+recording_event_t recording_next(recording_t *recording, recording_row_t *row);
+
+/// Releases memory.
+void recording_close(recording_t *recording);
+
+#endif

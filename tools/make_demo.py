@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""Write the bundled demo recording tools/demo/hinge_demo.csv and its truth, hinge_demo.json.
+
+    python3 tools/make_demo.py            write both
+    python3 tools/make_demo.py --check    exit 1 if the files in the repository differ
+
+Rest, then motion with a stiff joint (nothing to learn about the axis), then
+informative motion: 30 s at 50 Hz with realistic disturbances.
+"""
+
+import argparse
+import json
+import sys
+import tempfile
+from pathlib import Path
+
+TOOLS = Path(__file__).resolve().parent
+sys.path.insert(0, str(TOOLS / "python"))
+
+from jointcal_tools.recordings import write_csv  # noqa: E402
+from jointcal_tools.simulate import HingeSpec, simulate_hinge  # noqa: E402
+
+DEMO = TOOLS / "demo"
+CSV, TRUTH = "hinge_demo.csv", "hinge_demo.json"
+SPEC = HingeSpec(motions=(("rest", 4.0), ("stiff", 4.0), ("7", 10.0), ("6", 9.0)),  # and 3 s of transitions
+                 rate_hz=50.0, seed=2020, acc_bias=0.1, gyr_bias_deg_s=0.3, soft_tissue_deg=0.5)
+DIGITS = 7  # few enough that no platform's last bit shows
+
+
+def rounded(value):
+    """JSON values with DIGITS significant digits."""
+    if isinstance(value, float):
+        return float(f"{value:.{DIGITS}g}")
+    if isinstance(value, dict):
+        return {key: rounded(item) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [rounded(item) for item in value]
+    return value
+
+
+def write_demo(folder: Path) -> None:
+    folder.mkdir(exist_ok=True)
+    rec = simulate_hinge(SPEC)
+    write_csv(folder / CSV, rec, digits=DIGITS)
+    truth = {**rec.truth(), "source": "simulated (tools/make_demo.py)"}
+    (folder / TRUTH).write_text(json.dumps(rounded(truth), indent=1) + "\n", newline="\n")
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="compare instead of writing")
+    if not parser.parse_args().check:
+        write_demo(DEMO)
+        return 0
+    with tempfile.TemporaryDirectory() as folder:
+        write_demo(Path(folder))
+        different = [name for name in (CSV, TRUTH)
+                     if not (DEMO / name).is_file() or (DEMO / name).read_bytes() != (Path(folder) / name).read_bytes()]
+    for name in different:
+        print(f"tools/demo/{name} differs from what tools/make_demo.py writes", file=sys.stderr)
+    return 1 if different else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
