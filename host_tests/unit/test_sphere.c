@@ -75,6 +75,14 @@ static void a_move_that_is_not_finite_leaves_the_axis_where_it_is(void)
     }
 }
 
+static void an_axis_without_length_stays_as_it_is(void)
+{
+    const jcal_vec3_t zero = {0.0f, 0.0f, 0.0f};
+    const jcal_tangent_t t = jcal_sphere_tangent(zero);
+    const jcal_vec3_t moved = jcal_sphere_move(zero, &t, 0.0f, 0.0f);
+    TEST_ASSERT_EQUAL_MEMORY(&zero, &moved, sizeof zero);
+}
+
 static void angles_are_exact_where_acos_is_not(void)
 {
     const jcal_vec3_t x = {1.0f, 0.0f, 0.0f};
@@ -152,6 +160,7 @@ int main(void)
     RUN_TEST(tangent_basis_is_orthonormal_at_and_around_the_poles_and_the_equator);
     RUN_TEST(a_small_move_turns_the_axis_by_its_length);
     RUN_TEST(a_move_that_is_not_finite_leaves_the_axis_where_it_is);
+    RUN_TEST(an_axis_without_length_stays_as_it_is);
     RUN_TEST(angles_are_exact_where_acos_is_not);
     RUN_TEST(the_angle_between_lines_ignores_signs);
     RUN_TEST(random_units_have_length_one_and_no_preferred_direction);

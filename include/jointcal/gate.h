@@ -47,7 +47,6 @@ typedef struct {
 
 /// The gate. Caller-owned, plain, copyable; all members are private.
 typedef struct {
-    jcal_gate_config_t cfg;
     jcal_gate_sensor_t sensor1;
     jcal_gate_sensor_t sensor2;
     uint64_t last_us;
@@ -64,14 +63,14 @@ jcal_gate_config_t jcal_gate_config_default(void);
 /// Name of the first field that is out of its range, or null if the config is valid.
 const char *jcal_gate_config_check(const jcal_gate_config_t *config);
 
-/// Empties the gate. `config` must be valid.
-void jcal_gate_init(jcal_gate_t *self, const jcal_gate_config_t *config);
+/// Empties the gate.
+void jcal_gate_init(jcal_gate_t *self);
 
-/// Checks one sample pair, remembers it and counts the outcome.
+/// Checks one sample pair against a valid config, remembers it and counts the outcome.
 ///
 /// Returns:  JCAL_REJECT_NONE, or the first cause that applies in the order of jcal_reject_t.
 /// Cost:     constant, about 150 floating-point operations; no square root but two.
-jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_pair_t *pair);
+jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *config, const jcal_pair_t *pair);
 
 /// What is wrong with the stream as a whole: JCAL_REASON_NONE, _WRONG_UNITS_GYR, _WRONG_UNITS_ACC or _BAD_SAMPLES.
 jcal_reason_t jcal_gate_complaint(const jcal_gate_t *self);

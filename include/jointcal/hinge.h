@@ -100,11 +100,12 @@ typedef struct {
     float fine_second;      ///< Sum of squared second-order scores over fine blocks.
     float second;           ///< The same over coarse blocks.
     float information;      ///< Information that these sums cover.
+    float information2;     ///< Sum of the squared information of each coarse block.
+    float coarse_information; ///< Information in the current coarse block.
     float information_all;  ///< Information of all samples.
     float fine_s;           ///< Time in the current fine block.
     float coarse_s;         ///< Time in the current coarse block.
     float time_s;           ///< Time that these sums cover.
-    float blocks;           ///< Finished coarse blocks.
 } jcal_hinge_scatter_t;
 
 /// Private: sums at the running estimate: how well it fits, how the sign pairings compare.
@@ -128,11 +129,17 @@ typedef struct {
     float before_s;         ///< Their age; negative: there are none.
 } jcal_hinge_evidence_t;
 
+/// Private: a point without its tangent directions.
+typedef struct {
+    jcal_vec3_t j1, j2;
+    jcal_vec3_t bias1, bias2;
+} jcal_hinge_place_t;
+
 /// Private: where the search for other minima stands.
 typedef struct {
-    jcal_hinge_point_t probe;
-    jcal_vec3_t flip1, flip2;    ///< Best axes of the other sign pairing.
-    jcal_vec3_t rival1, rival2;  ///< Best axes of another minimum.
+    jcal_hinge_place_t probe;    ///< Where the probe is.
+    jcal_hinge_place_t rival;    ///< Best other minimum.
+    jcal_vec3_t flip1, flip2;    ///< Best axes of the other sign pairing, with the biases of the estimate.
     float damping;
     uint8_t rounds;              ///< Complete rounds over all starts since the estimate last changed its minimum.
     uint8_t start;               ///< Which start the probe came from.
@@ -165,6 +172,7 @@ typedef struct {
     float rate_product;          ///< Low-passed |w1| |w2|.
     float acc_constant_m_s2;     ///< Estimate of c = j1 . b_a1 - j2 . b_a2.
     float damping;
+    float moved_rad[2];          ///< Length of the last step of each axis: how far the estimate may be from its minimum.
     float credit_s;              ///< Time not yet paid for with slices of work.
     uint64_t last_us;
     uint8_t slice;               ///< Next slice of the cycle.

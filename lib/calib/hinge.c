@@ -25,7 +25,7 @@
 #define STEP_MAX_S 0.05f
 
 /// Keeps the weight 1 / (|w1|^2 + |w2|^2 + eps) finite at rest, (rad/s)^2; docs/METHOD.md section 2.
-#define RATE_EPS 0.005f
+#define RATE_EPS 0.05f
 
 /// Time constant of the product of the rates, s.
 #define PRODUCT_TIME_S 0.2f
@@ -39,9 +39,9 @@
 #define ACC_WEIGHT_MAX 2e4f
 
 /// One slice of work is paid for by this much time, so that the work per second does not depend on the rate.
-#define SLICE_S 0.01f
-#define SLICES_MAX 5u
-#define SLICES_PER_CYCLE 8u
+#define SLICE_S 0.005f
+#define SLICES_MAX 10u
+#define SLICES_PER_CYCLE 16u
 
 typedef char jcal_hinge_fits_its_budget[(sizeof(jcal_hinge_t) <= 2048u) ? 1 : -1];
 
@@ -99,7 +99,7 @@ jcal_status_t jcal_hinge_init(jcal_hinge_t *self, const jcal_hinge_config_t *con
     const jcal_hinge_config_t cfg = *config; /* the caller may hand over self->cfg */
     *self = (jcal_hinge_t){0};
     self->cfg = cfg;
-    jcal_gate_init(&self->gate, &cfg.gate);
+    jcal_gate_init(&self->gate);
     self->damping = JCAL_GN_DAMPING_START;
     self->evidence.before_s = STEP_MAX_S + 1.0f; /* no earlier rates: older than any that count */
     self->verdict.bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
@@ -123,7 +123,7 @@ jcal_status_t jcal_hinge_push(jcal_hinge_t *self, const jcal_pair_t *pair)
     if (jcal_inbox_full(&self->inbox)) {
         return JCAL_ERR_FULL;
     }
-    if (jcal_gate_check(&self->gate, pair) != JCAL_REJECT_NONE) {
+    if (jcal_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
         return JCAL_REJECTED;
     }
     jcal_inbox_put(&self->inbox, pair);
@@ -183,15 +183,20 @@ static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     }
 }
 
-/// One slice of the cycle: 1 step of the estimate, 6 of the global check, 1 judgement.
+/// One slice of the cycle: 2 steps of the estimate, 5 slices of the global check, 1 judgement.
 static void work(jcal_hinge_t *self)
 {
-    if (self->slice == 0u) {
+    switch (self->slice) {
+    case 0u:
+    case SLICES_PER_CYCLE / 2u:
         jcal_hinge_track(self);
-    } else if (self->slice < (SLICES_PER_CYCLE - 1u)) {
-        jcal_hinge_search(self);
-    } else {
+        break;
+    case SLICES_PER_CYCLE - 1u:
         jcal_hinge_judge(self);
+        break;
+    default:
+        jcal_hinge_search(self);
+        break;
     }
     self->slice = (uint8_t)((self->slice + 1u) % SLICES_PER_CYCLE);
 }

@@ -15,26 +15,33 @@
 #define AXIS 4u /* unknowns of both axes, and of both biases */
 
 /// Finished blocks below which nothing is said, and the weight in blocks of what is assumed before they are many.
-#define BLOCKS_MIN 10.0f
+#define BLOCKS_MIN 5.0f
 #define PRIOR_BLOCKS 6.0f
 /// Assumed ratio of the scatter over coarse blocks to that over fine ones: residuals are similar over some fine blocks.
-#define PRIOR_CORRELATION 2.0f
+#define PRIOR_CORRELATION 1.5f
 /// Small-sample factor 1 + this / blocks.
-#define SMALL_SAMPLE 4.0f
+#define SMALL_SAMPLE 3.0f
 
 /// Noise power per direction across the axis is the mean of (|q1| - |q2|)^2 times a factor between 1/2, where the rates q
 /// across the axis are large, and 1 / 0.86, where they are nothing but noise (there the mean square of q is 2.3 times that
 /// mean); the line between, with a margin.
-#define NOISE_MARGIN 1.3f
+#define NOISE_MARGIN 1.15f
 #define NOISE_FREE 0.5f
 #define NOISE_SLOPE 1.6f
 #define NOISE_RATIO_MAX 0.6f
+
+/// Share of the power of the accelerometer residual that may act alike in every sample.
+#define ACC_SYSTEMATIC 0.1f
 
 /// 95 % points: of a squared normal variable, and what a second one of the same size adds to that.
 #define ONE_DIRECTION 3.84f
 #define SECOND_DIRECTION 2.15f
 /// Twice the standard deviation, squared.
 #define TWO_SIGMA2 4.0f
+
+/// Gauss-Newton steps of the last length that may lie between the estimate and its minimum: the sum of a series of steps that
+/// shrink by a third each, as they do where the cost is of fourth order.
+#define STEPS_LEFT 2.0f
 
 /// Information below which a direction is open. The cost is in units of independent readings: 1 is one reading at 1 rad.
 #define OPEN_INFORMATION 1.0f
@@ -90,6 +97,14 @@ static float noise_power(const jcal_hinge_evidence_t *evidence)
     return NOISE_MARGIN * mean * (NOISE_FREE + (NOISE_SLOPE * ratio));
 }
 
+/// Share of the accelerometer's information that counts. What remains of (25) is mostly the neglected right-hand side of (17),
+/// which follows the motion, so it does not average out: the information is limited to what a fixed number of residuals of that
+/// size would leave.
+static float acc_trust(const jcal_hinge_lin_t *lin)
+{
+    return 1.0f / (1.0f + (ACC_SYSTEMATIC * lin->cost_acc));
+}
+
 /// Information about the axes with the biases eliminated, S = A - C' B^-1 C (4 x 4); `gain` is B^-1 C, column by column.
 ///
 /// Noise in the regressors pretends information: the gradient -2 (w . j) q holds q's own noise. It is taken off before anything
@@ -113,9 +128,11 @@ static bool information(const jcal_hinge_lin_t *lin, const float pretended[2], f
         }
         jcal_chol_solve(b, AXIS, column, gain[k]);
     }
+    const float doubt = 1.0f - acc_trust(lin);
     for (unsigned i = 0u; i < AXIS; ++i) {
         for (unsigned k = 0u; k <= i; ++k) {
             float sum = lin->matrix[jcal_sym_at(i, k)] - ((i == k) ? pretended[i / 2u] : 0.0f);
+            sum -= lin->matrix_acc[jcal_sym_at(i, k)] * doubt;
             for (unsigned m = 0u; m < AXIS; ++m) {
                 sum -= lin->matrix[jcal_sym_at(AXIS + m, i)] * gain[k][m];
             }
@@ -144,6 +161,13 @@ static float scatter_ratio(const jcal_hinge_lin_t *lin, const float *scatter, un
     const float d = lin->matrix[jcal_sym_at(r + 1u, r + 1u)];
     const float determinant = jcal_max((a * d) - (b * b), (1e-6f * a * d) + 1e-20f);
     return 0.5f * ((d * g00) - (2.0f * b * g01) + (a * g11)) / determinant;
+}
+
+/// Finished coarse blocks, each counted by its share of the information: (sum I)^2 / sum I^2.
+static float block_count(const jcal_hinge_scatter_t *scatter)
+{
+    const float closed = scatter->information - scatter->coarse_information;
+    return (closed * closed) / jcal_max(scatter->information2, 1e-20f);
 }
 
 /// Mean of what coarse blocks say and of what fine ones let expect, with the small-sample factor; never below the fine ones.
@@ -191,15 +215,16 @@ static float second_order_bound2(const power_t *own, const power_t *other, float
 bool jcal_hinge_bounds(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin, jcal_hinge_bounds_t *out)
 {
     const jcal_hinge_scatter_t *const scatters[2] = {&self->evidence.axis1, &self->evidence.axis2};
-    if (!(scatters[0]->blocks >= BLOCKS_MIN) || !(scatters[1]->blocks >= BLOCKS_MIN)) {
+    const float blocks[2] = {block_count(scatters[0]), block_count(scatters[1])};
+    if (!(blocks[0] >= BLOCKS_MIN) || !(blocks[1] >= BLOCKS_MIN)) {
         return false;
     }
     const jcal_hinge_moments_t *const moments = &self->moments;
     const power_t power[2] = {powers(moments, self->point.axis1.j, JCAL_HINGE_Z_W1W1),
                               powers(moments, self->point.axis2.j, JCAL_HINGE_Z_W2W2)};
     const float noise = noise_power(&self->evidence);
-    const float pretended[2] = {(4.0f * noise * power[0].along2) + lin->cost_acc,
-                                (4.0f * noise * power[1].along2) + lin->cost_acc};
+    const float pretended[2] = {(4.0f * noise * power[0].along2) + (acc_trust(lin) * lin->cost_acc),
+                                (4.0f * noise * power[1].along2) + (acc_trust(lin) * lin->cost_acc)};
     float s[10];
     float gain[AXIS][AXIS];
     float values[AXIS];
@@ -224,11 +249,12 @@ bool jcal_hinge_bounds(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin, jc
         const float scale = scatter->information_all / jcal_max(scatter->information, 1e-20f);
         const float coarse = scale * scatter_ratio(lin, scatter->scatter, axis, gain);
         const float fine = scale * scatter_ratio(lin, scatter->fine_scatter, axis, gain);
-        const float inflation = blend(coarse, fine, scatter->blocks);
-        const float second = scale * blend(scatter->second, scatter->fine_second, scatter->blocks);
+        const float inflation = blend(coarse, fine, blocks[axis]);
+        const float second = scale * blend(scatter->second, scatter->fine_second, blocks[axis]);
         const float first_order = linear_bound2(values, vectors, axis, inflation + mismatch_power);
         const float second_order = second_order_bound2(&power[axis], &power[1u - axis], product, noise, second);
-        bounds[axis] = jcal_min(sqrtf(jcal_min(first_order, second_order)), JCAL_BOUND_UNKNOWN_RAD);
+        const float around_minimum = sqrtf(jcal_min(first_order, second_order));
+        bounds[axis] = jcal_min(around_minimum + (STEPS_LEFT * self->moved_rad[axis]), JCAL_BOUND_UNKNOWN_RAD);
         out->inflation = jcal_max(inflation, out->inflation);
     }
     out->bound1_rad = bounds[0];

@@ -25,7 +25,7 @@
 #define SCORES 4u
 
 /// cos 15 deg: an axis that moved further makes its earlier scores useless.
-#define ANCHOR_COSINE 0.9659258f
+#define ANCHOR_COSINE 0.9396926f
 
 /// Shortest base of the difference quotient of the rates, s, and the longest across which it still means something.
 #define TURN_BASE_S 0.019f
@@ -34,15 +34,20 @@
 #define TURN_RATE2 0.1f
 #define TURN_SHARE 0.03f
 
+/// Measure of what a sample can tell of one axis, whichever way the axis points; only proportions matter.
+static float information_in(const jcal_hinge_sample_t *sample, float rate2)
+{
+    return (sample->gyr_weight * rate2 * rate2) + (ACC_INFORMATION * sample->acc_weight);
+}
+
 void jcal_hinge_evidence_watch(jcal_hinge_evidence_t *self, const jcal_hinge_sample_t *sample)
 {
     const float difference = fabsf(sqrtf(sample->w1_2) - sqrtf(sample->w2_2));
     const float errors = (DIFFERENCE_SHARE * sqrtf(jcal_max(sample->w1_2, sample->w2_2))) + DIFFERENCE_NOISE_RAD_S;
     const float excess = jcal_max(difference - errors, 0.0f);
     self->excitation += sample->dt_s * excess * excess;
-    const float of_acc = ACC_INFORMATION * sample->acc_weight;
-    self->axis1.information_all += (sample->gyr_weight * sample->w1_2 * sample->w1_2) + of_acc;
-    self->axis2.information_all += (sample->gyr_weight * sample->w2_2 * sample->w2_2) + of_acc;
+    self->axis1.information_all += information_in(sample, sample->w1_2);
+    self->axis2.information_all += information_in(sample, sample->w2_2);
 }
 
 /// What one sensor's axis does to a sample.
@@ -80,14 +85,17 @@ static void close_coarse(jcal_hinge_scatter_t *scatter)
     for (unsigned i = 0u; i <= SCORES; ++i) {
         scatter->coarse[i] = 0.0f;
     }
+    scatter->information2 += scatter->coarse_information * scatter->coarse_information;
+    scatter->coarse_information = 0.0f;
     scatter->coarse_s = 0.0f;
-    scatter->blocks += 1.0f;
 }
 
 /// Adds time and closes the blocks that are full.
-static void advance(jcal_hinge_scatter_t *scatter, float dt_s)
+static void advance(jcal_hinge_scatter_t *scatter, float information, float dt_s)
 {
     const float half = 0.5f * dt_s;
+    scatter->information += information;
+    scatter->coarse_information += information;
     scatter->time_s += dt_s;
     scatter->fine_s += dt_s;
     scatter->coarse_s += dt_s;
@@ -188,11 +196,8 @@ void jcal_hinge_evidence_add(jcal_hinge_evidence_t *self, const jcal_hinge_point
     const float residuals2[2] = {-gyr, -acc};
     add_score(&self->axis1, &point->axis1, &view1, sample->a1, residuals1, gyr_bias_rad_s);
     add_score(&self->axis2, &point->axis2, &view2, sample->a2, residuals2, gyr_bias_rad_s);
-    const float of_acc = ACC_INFORMATION * sample->acc_weight;
-    self->axis1.information += (sample->gyr_weight * sample->w1_2 * sample->w1_2) + of_acc;
-    self->axis2.information += (sample->gyr_weight * sample->w2_2 * sample->w2_2) + of_acc;
-    advance(&self->axis1, sample->dt_s);
-    advance(&self->axis2, sample->dt_s);
+    advance(&self->axis1, information_in(sample, sample->w1_2), sample->dt_s);
+    advance(&self->axis2, information_in(sample, sample->w2_2), sample->dt_s);
     add_fit(self, &view1, &view2, sample);
     add_turn(self, point, sample);
 }
@@ -242,9 +247,9 @@ static void halve_axis(jcal_hinge_scatter_t *scatter)
     scatter->fine_second *= 0.5f;
     scatter->second *= 0.5f;
     scatter->information *= 0.5f;
+    scatter->information2 *= 0.5f;
     scatter->information_all *= 0.5f;
     scatter->time_s *= 0.5f;
-    scatter->blocks *= 0.5f;
 }
 
 void jcal_hinge_evidence_halve(jcal_hinge_evidence_t *self)

@@ -13,7 +13,7 @@
 
 /// Integral of the squared difference of the rates, beyond what errors make, that shows that the joint moves, rad^2/s:
 /// half a second at 0.3 rad/s.
-#define EXCITATION_MIN 0.05f
+#define EXCITATION_MIN 0.02f
 
 /// The disagreement across the axis must be small beside the difference of the rates, or no hinge explains the data.
 #define MISFIT_SHARE 0.25f
@@ -79,7 +79,7 @@ static bool has_rival(const jcal_hinge_t *self, float cost, float inflation)
     if (!self->search.has_rival) {
         return false;
     }
-    const float other = jcal_hinge_cost_at(self, self->search.rival1, self->search.rival2);
+    const float other = jcal_hinge_cost_of_rival(self);
     const bool much_worse = (other - cost) > (RIVAL_COST_MIN * jcal_max(inflation, INFLATION_MIN));
     return !(much_worse && (other > (RIVAL_RATIO_MIN * cost)));
 }
@@ -136,7 +136,7 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
     if (!hinted && !((sign->evidence > SIGN_EVIDENCE_MIN) && (sign->margin > SIGN_MARGIN_MIN))) {
         return JCAL_REASON_SIGN_OPEN;
     }
-    return has_rival(self, lin->cost_acc + lin->cost_gyr, bounds->inflation) ? JCAL_REASON_OTHER_MINIMUM : JCAL_REASON_NONE;
+    return has_rival(self, jcal_hinge_cost(self, &self->point), bounds->inflation) ? JCAL_REASON_OTHER_MINIMUM : JCAL_REASON_NONE;
 }
 
 static jcal_weak_t weak_for(jcal_reason_t reason, const jcal_hinge_bounds_t *bounds)

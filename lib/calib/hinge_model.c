@@ -164,7 +164,8 @@ static void linearise_acc(const jcal_hinge_moments_t *moments, const jcal_hinge_
         acc_times(moments, prior, columns[r], at);
         out->gradient[r] += dot(columns[r], ay, ACC_AXES);
         for (unsigned c = 0u; c <= r; ++c) {
-            out->matrix[jcal_sym_at(r, c)] += dot(columns[c], at, ACC_AXES);
+            out->matrix_acc[jcal_sym_at(r, c)] = dot(columns[c], at, ACC_AXES);
+            out->matrix[jcal_sym_at(r, c)] += out->matrix_acc[jcal_sym_at(r, c)];
         }
     }
 }

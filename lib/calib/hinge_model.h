@@ -29,6 +29,7 @@ typedef struct {
     float cost_acc;                      ///< y' A y.
     float gradient[JCAL_HINGE_UNKNOWNS]; ///< Half the gradient of the cost.
     float matrix[36];                    ///< Packed 8 x 8, half the Gauss-Newton Hessian.
+    float matrix_acc[10];                ///< The accelerometer's share of its first 4 x 4.
 } jcal_hinge_lin_t;
 
 /// z: 19 features of a pair of rates.

@@ -15,10 +15,10 @@ void jcal_hinge_track(jcal_hinge_t *self);
 /// with axis 2 turned round.
 void jcal_hinge_search(jcal_hinge_t *self);
 
-/// Cost of both parts at a point, the prior of the biases left out.
+/// Cost of both parts at a point and of the prior of its biases.
 float jcal_hinge_cost(const jcal_hinge_t *self, const jcal_hinge_point_t *point);
 
-/// The same at other axes, with the estimate's biases.
-float jcal_hinge_cost_at(const jcal_hinge_t *self, jcal_vec3_t j1, jcal_vec3_t j2);
+/// The same at the rival.
+float jcal_hinge_cost_of_rival(const jcal_hinge_t *self);
 
 #endif /* JCAL_HINGE_SEARCH_H */

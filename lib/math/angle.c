@@ -54,6 +54,6 @@ float jcal_angle_mean_plus_2_sigma(float p00, float p01, float p11)
     /* Ramanujan 1914: quarter perimeter = pi/4 (s1 + s2) (1 + 3h / (10 + sqrt(4 - 3h))). */
     const float quarter_perimeter = quarter_pi * sum * (1.0f + (three_h / (10.0f + sqrtf(4.0f - three_h))));
     const float mu = sqrtf(two_over_pi) * quarter_perimeter;
-    const float variance = (s1 * s1) + (s2 * s2) - (mu * mu);
-    return mu + (2.0f * sqrtf((variance < 0.0f) ? 0.0f : variance));
+    /* At least (1 - 2 / pi) s1^2, far from a negative argument. */
+    return mu + (2.0f * sqrtf((s1 * s1) + (s2 * s2) - (mu * mu)));
 }

@@ -60,10 +60,9 @@ const char *jcal_gate_config_check(const jcal_gate_config_t *config)
     return NULL;
 }
 
-void jcal_gate_init(jcal_gate_t *self, const jcal_gate_config_t *config)
+void jcal_gate_init(jcal_gate_t *self)
 {
     *self = (jcal_gate_t){0};
-    self->cfg = *config;
 }
 
 static bool is_finite(const jcal_imu_t *imu)
@@ -153,7 +152,7 @@ static bool gyr_looks_wrong(const jcal_gate_sensor_t *sensor)
 }
 
 /// The checks that need no predecessor but that of the clock.
-static jcal_reject_t check_time(const jcal_gate_t *self, uint64_t t_us)
+static jcal_reject_t check_time(const jcal_gate_t *self, const jcal_gate_config_t *cfg, uint64_t t_us)
 {
     if (!self->has_last) {
         return JCAL_REJECT_NONE;
@@ -162,7 +161,7 @@ static jcal_reject_t check_time(const jcal_gate_t *self, uint64_t t_us)
         return JCAL_REJECT_TIME_ORDER;
     }
     const float dt_s = (float)(t_us - self->last_us) * MICROSECONDS;
-    return (dt_s > self->cfg.gap_s) ? JCAL_REJECT_GAP : JCAL_REJECT_NONE;
+    return (dt_s > cfg->gap_s) ? JCAL_REJECT_GAP : JCAL_REJECT_NONE;
 }
 
 /// Takes in a continuous, finite sample; the first sample ever has no predecessor.
@@ -197,7 +196,7 @@ static void start_sensor(jcal_gate_sensor_t *sensor, const jcal_imu_t *imu)
     sensor->repeated_s = 0.0f;
 }
 
-static jcal_reject_t check_values(jcal_gate_t *self, const jcal_pair_t *pair)
+static jcal_reject_t check_values(jcal_gate_t *self, const jcal_gate_config_t *cfg, const jcal_pair_t *pair)
 {
     if (!self->has_last) {
         self->has_last = true;
@@ -207,8 +206,8 @@ static jcal_reject_t check_values(jcal_gate_t *self, const jcal_pair_t *pair)
         return wrong ? JCAL_REJECT_OUT_OF_RANGE : JCAL_REJECT_NONE;
     }
     const float dt_s = (float)(pair->t_us - self->last_us) * MICROSECONDS;
-    const jcal_reject_t first = check_sensor(&self->cfg, &self->sensor1, &pair->imu1, dt_s);
-    const jcal_reject_t second = check_sensor(&self->cfg, &self->sensor2, &pair->imu2, dt_s);
+    const jcal_reject_t first = check_sensor(cfg, &self->sensor1, &pair->imu1, dt_s);
+    const jcal_reject_t second = check_sensor(cfg, &self->sensor2, &pair->imu2, dt_s);
     const jcal_reject_t cause = (first < second) ? first : second;
     const float bad = ((cause == JCAL_REJECT_OUT_OF_RANGE) || (cause == JCAL_REJECT_FROZEN)) ? 1.0f : 0.0f;
     const float saturated = (cause == JCAL_REJECT_SATURATED) ? 1.0f : 0.0f;
@@ -217,18 +216,18 @@ static jcal_reject_t check_values(jcal_gate_t *self, const jcal_pair_t *pair)
     return cause;
 }
 
-jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_pair_t *pair)
+jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *config, const jcal_pair_t *pair)
 {
     self->samples += 1u;
     jcal_reject_t cause = JCAL_REJECT_NOT_FINITE;
     if (is_finite(&pair->imu1) && is_finite(&pair->imu2)) {
-        cause = check_time(self, pair->t_us);
+        cause = check_time(self, config, pair->t_us);
         if (cause == JCAL_REJECT_GAP) {
             start_sensor(&self->sensor1, &pair->imu1);
             start_sensor(&self->sensor2, &pair->imu2);
         }
         if (cause == JCAL_REJECT_NONE) {
-            cause = check_values(self, pair);
+            cause = check_values(self, config, pair);
         }
         if (cause != JCAL_REJECT_TIME_ORDER) {
             self->last_us = pair->t_us;

@@ -47,7 +47,7 @@ static jcal_hinge_window_config_t config_from(const jcal_batch_options_t *option
     window.half_window = (uint16_t)options->half_window;
     window.acc_min = (uint16_t)options->acc_min;
     window.accept_count = (uint16_t)options->accept_count;
-    window.seed = (uint32_t)options->seed;
+    window.seed = options->seed;
     window.w0 = options->w0;
     window.energy_max_rad2_s2 = options->energy_max_rad2_s2;
     window.accept_bound_rad = options->accept_bound_rad;

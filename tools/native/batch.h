@@ -31,7 +31,7 @@ typedef struct {
     int32_t half_window;
     int32_t acc_min;
     int32_t accept_count;
-    int32_t seed;
+    uint32_t seed;
     float w0;
     float energy_max_rad2_s2;
     float accept_bound_rad;

@@ -3,13 +3,13 @@
    Writes one JSON object per engine. */
 #include "jointcal/jointcal.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
 static const uint64_t US_PER_S = 1000000u;
-static const uint16_t N_MAX[] = {125u, 250u, 500u, 1000u};
+/* [OLS20] 7.3 tried 125 to 1000; here the number must be even. */
+static const uint16_t N_MAX[] = {126u, 250u, 500u, 1000u};
 #define N_MAX_COUNT (sizeof(N_MAX) / sizeof(N_MAX[0]))
 
 typedef struct {
@@ -74,12 +74,15 @@ static void get(const subject_t *self, jcal_hinge_result_t *result)
     }
 }
 
-/* Seconds for the whole recording with one estimate per second of it, as an application would. */
+/* Seconds for the whole recording with one estimate per second of it, as an application would. Negative: the config or
+   the count of samples was wrong. */
 static double recording_s(subject_t *self, const data_t *data)
 {
     jcal_hinge_result_t result;
     const double begin_s = now_s();
-    (void)start(self);
+    if (!start(self)) {
+        return -1.0;
+    }
     uint64_t due_us = data->pairs[0].t_us + US_PER_S;
     for (size_t k = 0; k < data->count; k++) {
         push(self, &data->pairs[k]);
@@ -91,10 +94,7 @@ static double recording_s(subject_t *self, const data_t *data)
     }
     get(self, &result);
     const double end_s = now_s();
-    if (result.samples != data->count) {
-        (void)fprintf(stderr, "%zu samples, but %" PRIu32 " counted\n", data->count, result.samples);
-    }
-    return end_s - begin_s;
+    return (result.samples == data->count) ? end_s - begin_s : -1.0;
 }
 
 static int compare(const void *a, const void *b)
@@ -134,7 +134,7 @@ static double mean(const double *values, size_t count)
     return sum / (double)count;
 }
 
-static void measure(subject_t *self, const data_t *data, int repeats, double *room)
+static bool measure(subject_t *self, const data_t *data, int repeats, double *room)
 {
     double best_s = recording_s(self, data);
     double sum_s = best_s;
@@ -142,6 +142,10 @@ static void measure(subject_t *self, const data_t *data, int repeats, double *ro
         const double s = recording_s(self, data);
         best_s = (s < best_s) ? s : best_s;
         sum_s += s;
+    }
+    if (best_s < 0.0) {
+        (void)fputs("an engine refused its config or lost samples\n", stderr);
+        return false;
     }
     double *const push_s = room;
     double *const step_s = room + data->count;
@@ -156,6 +160,7 @@ static void measure(subject_t *self, const data_t *data, int repeats, double *ro
                  self->is_window ? "window" : "stream", self->is_window ? (unsigned)self->config.n_max : 0u,
                  self->is_window ? sizeof(jcal_hinge_window_t) : sizeof(jcal_hinge_t), self->storage_bytes,
                  1e9 * push_mean_s, 1e9 * step_mean_s, 1e9 * step_s[p99], sum_s / repeats, best_s, data->count);
+    return true;
 }
 
 static bool read_file(const char *path, data_t *data)
@@ -189,17 +194,13 @@ static bool measure_all(const data_t *data, int repeats)
         return false;
     }
     subject_t subject = {.is_window = false, .config = jcal_hinge_window_config_default()};
-    measure(&subject, data, repeats, room);
+    bool done = measure(&subject, data, repeats, room);
     subject.is_window = true;
-    bool done = true;
     for (size_t k = 0; k < N_MAX_COUNT && done; k++) {
         subject.config.n_max = N_MAX[k];
         subject.storage_bytes = jcal_hinge_window_storage_bytes(&subject.config);
         subject.storage = malloc(subject.storage_bytes);
-        done = subject.storage != NULL;
-        if (done) {
-            measure(&subject, data, 1, room);
-        }
+        done = subject.storage != NULL && measure(&subject, data, 1, room);
         free(subject.storage);
     }
     free(room);

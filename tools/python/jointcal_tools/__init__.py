@@ -1,5 +1,6 @@
-"""Python tools of jointcal: simulator, recordings and float64 references.
+"""Python tools of jointcal: simulator, recordings, float64 references, measurements.
 
-Nothing here uses the C library: the references are written from the papers
-alone, so that an agreement between the two means something.
+The references (ols20) and the simulator use nothing of the C library: they are
+written from the papers alone, so that an agreement between the two means something.
+`native` runs the C library, `measure` holds what tools/measure.py measures with it.
 """

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+"""Measure what the README and docs/MEASUREMENTS.md claim.
+
+    python3 tools/measure.py rig                 one measurement
+    python3 tools/measure.py all --quick         a small one of each, as CI does
+    python3 tools/measure.py never --only clip:7 one run again
+
+Each subcommand prints a report and writes it to docs/measurements (--quick and --only:
+build/measurements). Exit status 1 if a requirement fails. Recordings are looked for in
+the folder that JOINTCAL_DATA names, else in data/.
+"""
+
+import argparse
+import importlib
+import os
+import shlex
+import sys
+from pathlib import Path
+
+# Many small matrices: one thread per process is fastest. Read when numpy is loaded.
+for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(variable, "1")
+
+TOOLS = Path(__file__).resolve().parent
+sys.path.insert(0, str(TOOLS / "python"))
+
+from jointcal_tools import native  # noqa: E402
+from jointcal_tools.measure.harness import Report, Settings, Skipped  # noqa: E402
+
+MEASUREMENTS = {
+    "rig": "whole rig recordings: accuracy, both engines, numpy",
+    "silent": "every 3, 5, 10 s window of the rig recordings, beside qmt",
+    "never": "data that determine nothing must never be ready",
+    "bounds": "coverage and sharpness of the bounds, simulated",
+    "scenarios": "the four scenarios of OLS20 beside Algorithm 4",
+    "time": "time to ready",
+    "bias": "what the bias states buy",
+    "cost": "time and memory, beside qmt",
+}
+MODULES = {"time": "time_to_ready"}  # where the name differs
+
+
+def make_parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("what", choices=[*MEASUREMENTS, "all"],
+                        help="; ".join(f"{name}: {text}" for name, text in MEASUREMENTS.items()))
+    parser.add_argument("--runs", type=int, help="number of runs, where there are any to choose")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help="processes (default: all cores)")
+    parser.add_argument("--quick", action="store_true", help="few runs, and chance is allowed for")
+    parser.add_argument("--engine", choices=["stream", "window", "both"], default="both")
+    parser.add_argument("--no-qmt", action="store_true", help="leave the comparison with qmt out")
+    parser.add_argument("--qmt-every", type=float, default=1.0, metavar="S",
+                        help="cost: estimate with qmt every S seconds; the requirement is about 1")
+    parser.add_argument("--only", metavar="CLASS[:INDEX]", help="never, bounds: this class or run alone")
+    parser.add_argument("--out", type=Path, help="folder of the reports")
+    return parser
+
+
+def settings_from(args: argparse.Namespace) -> Settings:
+    engines = ("stream", "window") if args.engine == "both" else (args.engine,)
+    return Settings(runs=args.runs, jobs=max(args.jobs, 1), quick=args.quick, engines=engines,
+                    with_qmt=not args.no_qmt, qmt_every_s=args.qmt_every, only=args.only)
+
+
+def command_line(name: str) -> str:
+    """This call, for the report: without what has no influence on the result."""
+    words, skip = [], False
+    for word in sys.argv[1:]:
+        if skip or word.startswith(("--jobs", "--out")):
+            skip = not skip and "=" not in word
+            continue
+        words.append(name if word == "all" else word)
+    return shlex.join(["python3", "tools/measure.py", *words])
+
+
+def measure(name: str, settings: Settings, folder: Path) -> bool:
+    """One measurement; True if all its requirements hold or it cannot be made here."""
+    module = importlib.import_module(f"jointcal_tools.measure.{MODULES.get(name, name)}")
+    report = Report(name, module.TITLE, command_line(name), native.version(), settings.quick)
+    try:
+        module.measure(settings, report)
+    except Skipped as reason:
+        print(f"{name}: skipped, {reason}\n")
+        return True
+    print(report.markdown())
+    report.write(folder)
+    return report.passed
+
+
+def main() -> int:
+    args = make_parser().parse_args()
+    if args.runs is not None and args.runs < 1:
+        print("--runs must be at least 1", file=sys.stderr)
+        return 2
+    try:
+        native.library()
+    except (FileNotFoundError, RuntimeError) as error:
+        print(error, file=sys.stderr)
+        return 2
+    default = "build/measurements" if args.quick or args.only else "docs/measurements"
+    folder = args.out or TOOLS.parent / default
+    names = list(MEASUREMENTS) if args.what == "all" else [args.what]
+    passed = [measure(name, settings_from(args), folder) for name in names]
+    return 0 if all(passed) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
