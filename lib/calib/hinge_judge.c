@@ -7,8 +7,11 @@
 #include "calib/hinge_model.h"
 #include "calib/hinge_point.h"
 #include "calib/hinge_search.h"
+#include "jointcal/vec3.h"
 #include "math/scalar.h"
+#include "math/sym.h"
 
+#include <float.h>
 #include <math.h>
 
 /// Integral of the squared difference of the rates, beyond what errors make, that shows that the joint moves, rad^2/s:
@@ -32,6 +35,9 @@
 #define RIVAL_COST_MIN 15.0f
 #define RIVAL_RATIO_MIN 1.5f
 #define INFLATION_MIN 0.3f
+
+/// Motion counts as planar if the power of the rate across the axis is below this share of that along it: 8 deg.
+#define PLANAR_SHARE 0.02f
 
 /// Judgements in a row, one each 80 ms, that must agree before `ready`.
 #define AGREED_MIN 3u
@@ -70,10 +76,31 @@ static sign_t compare_signs(const jcal_hinge_t *self, const jcal_hinge_lin_t *li
     return sign;
 }
 
+/// True if one sensor turns about nearly one line, and that line is not the estimated axis.
+///
+/// In such motion the residual is of fourth order in a tilt, and a tilt together with biases can make a well of its own beside
+/// the true one. The line itself, the principal direction of the rates, is then the other explanation.
+static bool avoids_principal_line(const jcal_hinge_t *self, const jcal_hinge_axis_t *axis, unsigned first)
+{
+    const float *const sums = &self->moments.gyr[jcal_sym_at(JCAL_HINGE_Z_ONE, first)]; /* xx, yy, zz, xy, xz, yz */
+    const jcal_vec3_t j = axis->j;
+    const jcal_vec3_t image = {(sums[0] * j.x) + (sums[3] * j.y) + (sums[4] * j.z),
+                               (sums[3] * j.x) + (sums[1] * j.y) + (sums[5] * j.z),
+                               (sums[4] * j.x) + (sums[5] * j.y) + (sums[2] * j.z)};
+    const float along = jcal_vec3_dot(j, image);
+    const float across = (sums[0] + sums[1] + sums[2]) - along;
+    const float tilt = jcal_vec3_norm(jcal_hinge_across(j, image)) / jcal_max(along, FLT_MIN);
+    return (across < (PLANAR_SHARE * along)) && (tilt > self->cfg.max_bound_rad);
+}
+
 /// True if another minimum explains the data about as well, or if not all starts have been tried yet.
 static bool has_rival(const jcal_hinge_t *self, float cost, float inflation)
 {
     if (self->search.rounds == 0u) {
+        return true;
+    }
+    if (avoids_principal_line(self, &self->point.axis1, JCAL_HINGE_Z_W1W1)
+        || avoids_principal_line(self, &self->point.axis2, JCAL_HINGE_Z_W2W2)) {
         return true;
     }
     if (!self->search.has_rival) {

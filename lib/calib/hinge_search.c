@@ -20,6 +20,11 @@
 #define PROBE_STEPS 6u
 #define REFINE_STEPS 2u
 
+/// A change of cost too small to matter, in units of one independent reading; rounding may make a good step look worse by it.
+#define HARMLESS_COST 0.01f
+/// Damping never grows beyond this: the sums change with every sample, so a step that was refused may be right soon.
+#define DAMPING_MAX 1.0f
+
 /// A longer step than this says that the model behind it does not reach so far, rad.
 #define STEP_MAX_RAD 0.35f
 /// A shorter step than this means that the probe has arrived, rad.
@@ -86,10 +91,11 @@ static void descend(const jcal_hinge_t *self, size_t n, jcal_hinge_point_t *poin
     jcal_hinge_point_move(&trial, d, self->cfg.gyr_bias_rad_s);
     const float change = 0.5f * jcal_hinge_change(&self->moments, &self->cfg, point, &trial);
     jcal_gn_t gn = {*damping};
-    if (jcal_gn_judge(&gn, predicted, change)) {
+    const bool kept = jcal_gn_judge(&gn, predicted, change);
+    if (kept || (fabsf(change) < HARMLESS_COST)) {
         *point = trial;
     }
-    *damping = gn.damping;
+    *damping = jcal_min(gn.damping, kept ? JCAL_GN_DAMPING_MAX : DAMPING_MAX);
     lengths[0] = sqrtf((d[0] * d[0]) + (d[1] * d[1]));
     lengths[1] = sqrtf((d[2] * d[2]) + (d[3] * d[3]));
 }
