@@ -73,9 +73,9 @@ def numbers(value: object, shape: tuple[int, ...]) -> np.ndarray:
     return np.full(shape, np.nan) if value is None else np.array(value, float)
 
 
-def parse_lines(text: str) -> Lines:
+def parse_lines(text: str, until_s: float) -> Lines:
     lines = [json.loads(line) for line in text.splitlines() if line.strip()]
-    lines = [line for line in lines if line["t_s"] is not None]
+    lines = [line for line in lines if line["t_s"] is not None and line["t_s"] <= until_s]
     if not lines:
         sys.exit("there is no line with a time: nothing to draw")
     return Lines(
@@ -86,6 +86,13 @@ def parse_lines(text: str) -> Lines:
         np.array([numbers(line["sign_margin"], ()) for line in lines]),
         [line["t_s"] for line in lines if line["event"] == "ready"],
         lines[-1]["engine"])
+
+
+def load_until(path: Path, until_s: float) -> Recording:
+    """The recording up to a time; rows without a time are left out."""
+    rec = load_csv(path)
+    keep = np.flatnonzero(rec.t_s <= until_s)
+    return Recording(rec.t_s[keep], rec.gyr1[keep], rec.acc1[keep], rec.gyr2[keep], rec.acc2[keep])
 
 
 def read_truth(path: Path | None, recording: Path) -> list[np.ndarray] | None:
@@ -186,8 +193,7 @@ def draw_excitation(panel: Axes, rec: Recording) -> None:
     panel.legend(loc="upper right", fontsize=8, ncols=3, framealpha=0.9)
 
 
-def draw(rec: Recording, lines: Lines, truth: list[np.ndarray] | None, max_bound_deg: float, title: str,
-         until_s: float | None) -> plt.Figure:
+def draw(rec: Recording, lines: Lines, truth: list[np.ndarray] | None, max_bound_deg: float, title: str) -> plt.Figure:
     figure, panels = plt.subplots(4, 1, sharex=True, figsize=(10.0, 8.5), layout="constrained",
                                   height_ratios=[3.2, 0.35, 1.2, 1.8])
     draw_accuracy(panels[0], lines, truth, max_bound_deg)
@@ -197,13 +203,13 @@ def draw(rec: Recording, lines: Lines, truth: list[np.ndarray] | None, max_bound
     for panel in panels:
         for ready_s in lines.ready_s:
             panel.axvline(ready_s, color="#00664A", linewidth=0.9, alpha=0.8)
-    end_s = np.nanmax(rec.t_s) if until_s is None else until_s
-    if lines.ready_s and lines.ready_s[0] < end_s:
-        left = lines.ready_s[0] < 0.8 * end_s
+    begin_s, end_s = np.nanmin(rec.t_s), np.nanmax(rec.t_s)
+    if lines.ready_s:
+        left = lines.ready_s[0] < begin_s + 0.8 * (end_s - begin_s)
         panels[1].annotate(f"ready at {lines.ready_s[0]:.1f} s", (lines.ready_s[0], 0.5), xycoords=("data", "axes fraction"),
                            xytext=(5 if left else -5, 0), textcoords="offset points", fontsize=9, va="center",
                            ha="left" if left else "right")
-    panels[0].set_xlim(np.nanmin(rec.t_s), end_s)
+    panels[0].set_xlim(begin_s, end_s)
     panels[0].set_title(title, fontsize=11)
     return figure
 
@@ -216,7 +222,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--jsonl", type=Path, help="lines of `jointcal hinge RECORDING --json --every 0.1`")
     parser.add_argument("--engine", choices=["stream", "window"], default="stream")
     parser.add_argument("--max-bound", type=float, default=3.0, help="deg (default 3)")
-    parser.add_argument("--until", type=float, metavar="S", help="draw up to this time")
+    parser.add_argument("--until", type=float, metavar="S", default=float("inf"), help="draw up to this time")
     parser.add_argument("--program", type=Path, default=PROGRAM, help="default: build/host/jointcal")
     return parser
 
@@ -226,14 +232,14 @@ def main() -> int:
     options = ["--engine", args.engine, "--max-bound", str(args.max_bound)]
     try:
         text = args.jsonl.read_text() if args.jsonl else run_program(args.program, args.recording, options)
-        lines = parse_lines(text)
-        rec = load_csv(args.recording)
+        lines = parse_lines(text, args.until)
+        rec = load_until(args.recording, args.until)
         truth = read_truth(args.truth, args.recording)
     except (OSError, ValueError, KeyError) as error:
         print(f"plot.py: {error}", file=sys.stderr)
         return 2
-    title = f"{args.recording.name}: hinge, {lines.engine} engine, {lines.status[-1]} at the end"
-    draw(rec, lines, truth, args.max_bound, title, args.until).savefig(args.out, dpi=130)
+    title = f"{args.recording.name}: hinge, {lines.engine} engine, {lines.status[-1]} at {lines.t_s[-1]:.0f} s"
+    draw(rec, lines, truth, args.max_bound, title).savefig(args.out, dpi=130)
     return 0
 
 

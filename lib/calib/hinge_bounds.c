@@ -15,12 +15,12 @@
 #define AXIS 4u /* unknowns of both axes, and of both biases */
 
 /// Finished blocks below which nothing is said, and the weight in blocks of what is assumed before they are many.
-#define BLOCKS_MIN 5.0f
+#define BLOCKS_MIN 3.0f
 #define PRIOR_BLOCKS 6.0f
 /// Assumed ratio of the scatter over coarse blocks to that over fine ones: residuals are similar over some fine blocks.
-#define PRIOR_CORRELATION 2.0f
+#define PRIOR_CORRELATION 1.5f
 /// Small-sample factor 1 + this / blocks.
-#define SMALL_SAMPLE 4.0f
+#define SMALL_SAMPLE 2.0f
 
 /// Noise power per direction across the axis is the mean of (|q1| - |q2|)^2 times a factor between 1/2, where the rates q
 /// across the axis are large, and 1 / 0.86, where they are nothing but noise (there the mean square of q is 2.3 times that
@@ -41,7 +41,7 @@
 
 /// Gauss-Newton steps of the last length that may lie between the estimate and its minimum: the sum of a series of steps that
 /// shrink by a third each, as they do where the cost is of fourth order.
-#define STEPS_LEFT 2.0f
+#define STEPS_LEFT 1.5f
 
 /// Information below which a direction is open. The cost is in units of independent readings: 1 is one reading at 1 rad.
 #define OPEN_INFORMATION 1.0f
