@@ -2,8 +2,8 @@
 /// @file
 /// Decides for every incoming sample pair whether it may be used, and counts why not.
 ///
-/// The gate looks at readings and their predecessors only; it knows nothing of joints. It also notices rates that look like
-/// deg/s and specific forces that look like g, which no single reading shows.
+/// The gate looks at readings and their predecessors only; it knows nothing of joints. It also notices rates that
+/// look like deg/s and specific forces that look like g, which no single reading shows.
 #ifndef JCAL_GATE_H
 #define JCAL_GATE_H
 
@@ -16,33 +16,36 @@ extern "C" {
 
 /// Why a sample was not used; the first cause that applies counts. Also the index of its counter.
 typedef enum {
-    JCAL_REJECT_NOT_FINITE = 0,   ///< A value is NaN or infinite.
-    JCAL_REJECT_OUT_OF_RANGE = 1, ///< Beyond what a sensor can read, or wrong units.
-    JCAL_REJECT_SATURATED = 2,    ///< A component stands at its extreme: clipped.
-    JCAL_REJECT_FROZEN = 3,       ///< A sensor has repeated itself for longer than `frozen_s`.
-    JCAL_REJECT_REPEATED = 4,     ///< A sensor repeats its previous reading: a lost packet.
-    JCAL_REJECT_TIME_ORDER = 5,   ///< Time did not increase.
-    JCAL_REJECT_GAP = 6,          ///< First sample after a hole in time.
-    JCAL_REJECT_COUNT = 7,        ///< Number of causes.
-    JCAL_REJECT_NONE = 7          ///< The sample was accepted.
+    JCAL_REJECT_NOT_FINITE = 0,    ///< A value is NaN or infinite.
+    JCAL_REJECT_OUT_OF_RANGE = 1,  ///< Beyond what a sensor can read, or wrong units.
+    JCAL_REJECT_SATURATED = 2,     ///< A component stands at its extreme: clipped.
+    JCAL_REJECT_FROZEN = 3,        ///< A sensor has repeated itself for longer than `frozen_s`.
+    JCAL_REJECT_REPEATED = 4,      ///< A sensor repeats its previous reading: a lost packet.
+    JCAL_REJECT_TIME_ORDER = 5,    ///< Time did not increase.
+    JCAL_REJECT_GAP = 6,           ///< First sample after a hole in time.
+    JCAL_REJECT_COUNT = 7,         ///< Number of causes.
+    JCAL_REJECT_NONE = 7           ///< The sample was accepted.
 } jcal_reject_t;
 
 /// Limits of the gate.
 typedef struct {
-    float gyr_max_rad_s; ///< Largest believable component of a rate, rad/s. Range [1, 200], default 36 (2000 deg/s and a little).
-    float acc_max_m_s2;  ///< Largest believable component of a specific force, m/s^2. Range [20, 4000], default 320 (32 g and a little).
-    float frozen_s;      ///< Longest believable repetition of a reading, s. Range [0.02, 10], default 0.3.
-    float gap_s;         ///< Longest distance of two samples that still counts as continuous, s. Range [0.02, 10], default 0.25.
+    /// Largest believable component of a rate, rad/s. Range [1, 200], default 36 (2000 deg/s and a little).
+    float gyr_max_rad_s;
+    /// Largest believable component of a specific force, m/s^2. Range [20, 4000], default 320 (32 g and a little).
+    float acc_max_m_s2;
+    float frozen_s;  ///< Longest believable repetition of a reading, s. Range [0.02, 10], default 0.3.
+    /// Longest distance of two samples that still counts as continuous, s. Range [0.02, 10], default 0.25.
+    float gap_s;
 } jcal_gate_config_t;
 
 /// Private: what the gate remembers of one sensor.
 typedef struct {
-    float last[6];       ///< Previous reading: rate, specific force.
-    float extreme[6];    ///< Largest magnitude of each component so far.
-    float gravity_m_s2;  ///< Magnitude of the specific force, averaged over about 1 s.
-    float turn_measured; ///< Leaky sum of |da|^2, the change of the specific force from sample to sample.
-    float turn_expected; ///< Leaky sum of |a x w dt|^2, the change that the rate alone would make.
-    float repeated_s;    ///< How long the reading has stood still.
+    float last[6];        ///< Previous reading: rate, specific force.
+    float extreme[6];     ///< Largest magnitude of each component so far.
+    float gravity_m_s2;   ///< Magnitude of the specific force, averaged over about 1 s.
+    float turn_measured;  ///< Leaky sum of |da|^2, the change of the specific force from sample to sample.
+    float turn_expected;  ///< Leaky sum of |a x w dt|^2, the change that the rate alone would make.
+    float repeated_s;     ///< How long the reading has stood still.
 } jcal_gate_sensor_t;
 
 /// The gate. Caller-owned, plain, copyable; all members are private.
@@ -52,8 +55,8 @@ typedef struct {
     uint64_t last_us;
     uint32_t samples;
     uint32_t rejected_by[JCAL_REJECT_COUNT];
-    float bad_share;       ///< Share of frozen and out-of-range samples, averaged over about 2 s of samples.
-    float saturated_share; ///< Share of saturated samples, averaged over about 10 s of samples.
+    float bad_share;        ///< Share of frozen and out-of-range samples, averaged over about 2 s of samples.
+    float saturated_share;  ///< Share of saturated samples, averaged over about 10 s of samples.
     bool has_last;
 } jcal_gate_t;
 

@@ -17,9 +17,9 @@ extern "C" {
 
 /// What the user knows about the sign pairing beforehand.
 typedef enum {
-    JCAL_SIGN_UNKNOWN = 0,   ///< Find it out (default).
-    JCAL_SIGN_SAME = 1,      ///< The largest components of axis1 and axis2 have the same sign.
-    JCAL_SIGN_OPPOSITE = 2   ///< They have opposite signs.
+    JCAL_SIGN_UNKNOWN = 0,  ///< Find it out (default).
+    JCAL_SIGN_SAME = 1,     ///< The largest components of axis1 and axis2 have the same sign.
+    JCAL_SIGN_OPPOSITE = 2  ///< They have opposite signs.
 } jcal_sign_hint_t;
 
 /// The bound of something of which nothing is known: a right angle, the largest angle between two lines, rad.
@@ -29,43 +29,48 @@ typedef enum {
 typedef struct {
     jcal_calibration_t status;
     jcal_engine_t engine;
-    jcal_weak_t weak;         ///< The unknown that keeps the status from `ready`, if there is one.
-    jcal_hint_t hint;         ///< The motion that would help.
-    jcal_reason_t reason;     ///< Why the status is not `ready`.
-    bool has_axes;            ///< False until there is any estimate; then axis1, axis2 are zero.
-    bool paper_accepted;      ///< Window engine: what Algorithm 4 of [OLS20] says. Stream engine: false.
-    jcal_vec3_t axis1;        ///< Unit joint axis in sensor frame 1; its largest component is positive.
-    jcal_vec3_t axis2;        ///< Unit joint axis in sensor frame 2, sign following the pairing.
-    float uncertainty1_rad;   ///< 95 % bound of the angle between axis1 and the truth; JCAL_BOUND_UNKNOWN_RAD if unknown.
-    float uncertainty2_rad;   ///< The same for axis2.
-    float sign_margin;        ///< Cost of the other sign pairing over the cost of this one; 0 while unknown.
-    float progress_axis1;     ///< 0 to 1: how far axis1 is on the way to its bound.
-    float progress_axis2;     ///< The same for axis2.
-    float progress_sign;      ///< The same for the evidence of the sign pairing.
-    uint64_t t_us;            ///< Time of the last sample that went into this result; 0 before any.
-    uint32_t samples;         ///< Samples pushed.
-    uint32_t rejected;        ///< Samples rejected, all causes.
+    jcal_weak_t weak;      ///< The unknown that keeps the status from `ready`, if there is one.
+    jcal_hint_t hint;      ///< The motion that would help.
+    jcal_reason_t reason;  ///< Why the status is not `ready`.
+    bool has_axes;         ///< False until there is any estimate; then axis1, axis2 are zero.
+    bool paper_accepted;   ///< Window engine: what Algorithm 4 of [OLS20] says. Stream engine: false.
+    jcal_vec3_t axis1;     ///< Unit joint axis in sensor frame 1; its largest component is positive.
+    jcal_vec3_t axis2;     ///< Unit joint axis in sensor frame 2, sign following the pairing.
+    /// 95 % bound of the angle between axis1 and the truth; JCAL_BOUND_UNKNOWN_RAD if unknown.
+    float uncertainty1_rad;
+    float uncertainty2_rad;  ///< The same for axis2.
+    float sign_margin;       ///< Cost of the other sign pairing over the cost of this one; 0 while unknown.
+    float progress_axis1;    ///< 0 to 1: how far axis1 is on the way to its bound.
+    float progress_axis2;    ///< The same for axis2.
+    float progress_sign;     ///< The same for the evidence of the sign pairing.
+    uint64_t t_us;           ///< Time of the last sample that went into this result; 0 before any.
+    uint32_t samples;        ///< Samples pushed.
+    uint32_t rejected;       ///< Samples rejected, all causes.
     uint32_t rejected_by[JCAL_REJECT_COUNT];
 } jcal_hinge_result_t;
 
 /// Settings that both hinge engines share. Start from jcal_hinge_config_default().
 ///
-/// The noise and bias fields set how much each kind of data counts and what may be blamed on a bias; bounds are made from the
-/// residuals that are really met, so that a wrong value here costs sharpness, not honesty.
+/// The noise and bias fields set how much each kind of data counts and what may be blamed on a bias; bounds are made
+/// from the residuals that are really met, so that a wrong value here costs sharpness, not honesty.
 typedef struct {
-    jcal_gate_config_t gate;      ///< Limits of single samples.
-    float max_bound_rad;          ///< `ready` needs both bounds below this, rad. Range [0.001, 0.5], default 3 deg.
-    float rate_mismatch;          ///< What the model leaves out (scale, misalignment, timing of the gyroscopes), as a share of
-                                  ///< the rate: the floor of every bound. Range [0, 0.05], default 0.002. Larger: wider bounds.
-    float gyr_noise_rad_s;        ///< Usual disagreement of the two rates across the axis, rad/s. Range [1e-4, 1], default 0.03.
-    float acc_noise_m_s2;         ///< Usual disagreement of the two specific forces along the axis in slow motion, m/s^2, with
-                                  ///< what it lasts longer than that of the rates. Range [1e-3, 10], default 1.5.
-    float lever_arm_m;            ///< Growth of that disagreement with the product of the rates, m: the distance from the joint
-                                  ///< axis, again with its longer duration. Range [0, 5], default 1.
-    float gyr_bias_rad_s;         ///< Standard deviation of each component of a gyroscope's bias, rad/s.
-                                  ///< Range [1e-5, 0.2], default 0.01 (0.6 deg/s). 1e-5 turns the bias states off.
-    float acc_bias_m_s2;          ///< The same of an accelerometer, m/s^2. Range [1e-4, 5], default 0.5.
-    jcal_sign_hint_t sign_hint;   ///< Default JCAL_SIGN_UNKNOWN.
+    jcal_gate_config_t gate;  ///< Limits of single samples.
+    float max_bound_rad;      ///< `ready` needs both bounds below this, rad. Range [0.001, 0.5], default 3 deg.
+    /// What the model leaves out (scale, misalignment, timing of the gyroscopes), as a share of the rate: the floor
+    /// of every bound. Range [0, 0.05], default 0.002. Larger: wider bounds.
+    float rate_mismatch;
+    /// Usual disagreement of the two rates across the axis, rad/s. Range [1e-4, 1], default 0.03.
+    float gyr_noise_rad_s;
+    /// Usual disagreement of the two specific forces along the axis in slow motion, m/s^2, with what it lasts longer
+    /// than that of the rates. Range [1e-3, 10], default 1.5.
+    float acc_noise_m_s2;
+    /// Growth of that disagreement with the product of the rates, m: the distance from the joint axis, again with its
+    /// longer duration. Range [0, 5], default 1.
+    float lever_arm_m;
+    float gyr_bias_rad_s;        ///< Standard deviation of each component of a gyroscope's bias, rad/s.
+                                 ///< Range [1e-5, 0.2], default 0.01 (0.6 deg/s). 1e-5 turns the bias states off.
+    float acc_bias_m_s2;         ///< The same of an accelerometer, m/s^2. Range [1e-4, 5], default 0.5.
+    jcal_sign_hint_t sign_hint;  ///< Default JCAL_SIGN_UNKNOWN.
 } jcal_hinge_config_t;
 
 /// Number of features of the gyroscope residual; lib/calib/hinge_model.h says which.
@@ -73,8 +78,8 @@ typedef struct {
 
 /// Private: weighted sums over all samples, packed symmetric.
 typedef struct {
-    float gyr[190]; ///< 19 x 19: products of the gyroscope features.
-    float acc[28];  ///< 7 x 7: products of (a1, -a2, 1).
+    float gyr[190];  ///< 19 x 19: products of the gyroscope features.
+    float acc[28];   ///< 7 x 7: products of (a1, -a2, 1).
 } jcal_hinge_moments_t;
 
 /// Private: one axis, a direction across it, and the part of the gyroscope's bias across it.
@@ -92,41 +97,42 @@ typedef struct {
 
 /// Private: how the gradient of one axis scatters, from which its bound is made.
 typedef struct {
-    jcal_vec3_t anchor;     ///< Axis at which the sums began; far from it they begin anew.
-    float fine[5];          ///< Score of the current fine block: axis u, v, bias u, v, second order.
-    float coarse[5];        ///< The same of the current coarse block.
-    float fine_scatter[10]; ///< Sum of score score' over fine blocks, packed 4 x 4.
-    float scatter[10];      ///< The same over coarse blocks.
-    float fine_second;      ///< Sum of squared second-order scores over fine blocks.
-    float second;           ///< The same over coarse blocks.
-    float information;      ///< Information that these sums cover.
-    float information2;     ///< Sum of the squared information of each coarse block.
-    float coarse_information; ///< Information in the current coarse block.
-    float information_all;  ///< Information of all samples.
-    float fine_s;           ///< Time in the current fine block.
-    float coarse_s;         ///< Time in the current coarse block.
-    float time_s;           ///< Time that these sums cover.
+    jcal_vec3_t anchor;        ///< Axis at which the sums began; far from it they begin anew.
+    float fine[5];             ///< Score of the current fine block: axis u, v, bias u, v, second order.
+    float coarse[5];           ///< The same of the current coarse block.
+    float fine_scatter[10];    ///< Sum of score score' over fine blocks, packed 4 x 4.
+    float scatter[10];         ///< The same over coarse blocks.
+    float fine_second;         ///< Sum of squared second-order scores over fine blocks.
+    float second;              ///< The same over coarse blocks.
+    float information;         ///< Information that these sums cover.
+    float information2;        ///< Sum of the squared information of each coarse block.
+    float coarse_information;  ///< Information in the current coarse block.
+    float information_all;     ///< Information of all samples.
+    float fine_s;              ///< Time in the current fine block.
+    float coarse_s;            ///< Time in the current coarse block.
+    float time_s;              ///< Time that these sums cover.
 } jcal_hinge_scatter_t;
 
 /// Private: sums at the running estimate: how well it fits, how the sign pairings compare.
 typedef struct {
     jcal_hinge_scatter_t axis1;
     jcal_hinge_scatter_t axis2;
-    float fit_time_s;       ///< Time that the sums of the fit cover.
-    float across_error2;    ///< Integral of (|w1 x j1| - |w2 x j2|)^2.
-    float across_rate2;     ///< Integral of (|w1 x j1|^2 + |w2 x j2|^2) / 2.
-    float difference2;      ///< Integral of (|w1| - |w2|)^2.
-    float noise_sum;        ///< Weighted sum of (|w1 x j1| - |w2 x j2|)^2 ...
-    float noise_weight;     ///< ... and of its weights.
-    float pair_acc;         ///< Sum of accelerometer weights ...
-    float pair_acc2;        ///< ... and of their squares per second.
-    float turn_same;        ///< Cost of this pairing in the rate at which the rate across the axis turns about it.
-    float turn_other;       ///< The same of the other pairing.
-    float turn_time_s;      ///< Time for which that rate said something.
-    float excitation;       ///< Integral of the squared difference of |w1| and |w2| beyond what errors make; never restarted.
-    jcal_vec3_t before1;    ///< Earlier rates for the difference quotient.
+    float fit_time_s;     ///< Time that the sums of the fit cover.
+    float across_error2;  ///< Integral of (|w1 x j1| - |w2 x j2|)^2.
+    float across_rate2;   ///< Integral of (|w1 x j1|^2 + |w2 x j2|^2) / 2.
+    float difference2;    ///< Integral of (|w1| - |w2|)^2.
+    float noise_sum;      ///< Weighted sum of (|w1 x j1| - |w2 x j2|)^2 ...
+    float noise_weight;   ///< ... and of its weights.
+    float pair_acc;       ///< Sum of accelerometer weights ...
+    float pair_acc2;      ///< ... and of their squares per second.
+    float turn_same;      ///< Cost of this pairing in the rate at which the rate across the axis turns about it.
+    float turn_other;     ///< The same of the other pairing.
+    float turn_time_s;    ///< Time for which that rate said something.
+    /// Integral of the squared difference of |w1| and |w2| beyond what errors make; never restarted.
+    float excitation;
+    jcal_vec3_t before1;  ///< Earlier rates for the difference quotient.
     jcal_vec3_t before2;
-    float before_s;         ///< Their age; negative: there are none.
+    float before_s;  ///< Their age; negative: there are none.
 } jcal_hinge_evidence_t;
 
 /// Private: a point without its tangent directions.
@@ -137,13 +143,13 @@ typedef struct {
 
 /// Private: where the search for other minima stands.
 typedef struct {
-    jcal_hinge_place_t probe;    ///< Where the probe is.
-    jcal_hinge_place_t rival;    ///< Best other minimum.
-    jcal_vec3_t flip1, flip2;    ///< Best axes of the other sign pairing, with the biases of the estimate.
+    jcal_hinge_place_t probe;  ///< Where the probe is.
+    jcal_hinge_place_t rival;  ///< Best other minimum.
+    jcal_vec3_t flip1, flip2;  ///< Best axes of the other sign pairing, with the biases of the estimate.
     float damping;
-    uint8_t rounds;              ///< Complete rounds over all starts since the estimate last changed its minimum.
-    uint8_t start;               ///< Which start the probe came from.
-    uint8_t iterations;          ///< Steps that the probe has made.
+    uint8_t rounds;      ///< Complete rounds over all starts since the estimate last changed its minimum.
+    uint8_t start;       ///< Which start the probe came from.
+    uint8_t iterations;  ///< Steps that the probe has made.
     bool running, has_flip, has_rival;
 } jcal_hinge_search_t;
 
@@ -153,7 +159,7 @@ typedef struct {
     float bound2_rad;
     float sign_margin;
     float sign_progress;
-    uint8_t status, weak, hint, reason; ///< As in jcal_hinge_result_t.
+    uint8_t status, weak, hint, reason;  ///< As in jcal_hinge_result_t.
 } jcal_hinge_verdict_t;
 
 /// The stream engine. Caller-owned, plain, copyable at any time between calls; all members are private.
@@ -166,17 +172,18 @@ typedef struct {
     jcal_hinge_point_t point;
     jcal_hinge_search_t search;
     jcal_hinge_verdict_t verdict;
-    jcal_vec3_t rest_acc1;       ///< Specific forces at which the present dwelling began ...
+    jcal_vec3_t rest_acc1;  ///< Specific forces at which the present dwelling began ...
     jcal_vec3_t rest_acc2;
-    float dwell_s;               ///< ... and how long it has lasted.
-    float rate_product;          ///< Low-passed |w1| |w2|.
-    float acc_constant_m_s2;     ///< Estimate of c = j1 . b_a1 - j2 . b_a2.
+    float dwell_s;            ///< ... and how long it has lasted.
+    float rate_product;       ///< Low-passed |w1| |w2|.
+    float acc_constant_m_s2;  ///< Estimate of c = j1 . b_a1 - j2 . b_a2.
     float damping;
-    float moved_rad[2];          ///< Length of the last step of each axis: how far the estimate may be from its minimum.
-    float credit_s;              ///< Time not yet paid for with slices of work.
+    /// Length of the last step of each axis: how far the estimate may be from its minimum.
+    float moved_rad[2];
+    float credit_s;  ///< Time not yet paid for with slices of work.
     uint64_t last_us;
-    uint8_t slice;               ///< Next slice of the cycle.
-    uint8_t agreed;              ///< Judgements in a row that found nothing missing.
+    uint8_t slice;   ///< Next slice of the cycle.
+    uint8_t agreed;  ///< Judgements in a row that found nothing missing.
     bool has_last, has_point;
 } jcal_hinge_t;
 

@@ -96,7 +96,6 @@ typedef struct {
 /// It may be copied together with its storage; jcal_hinge_window_attach() then tells the copy where its storage is.
 typedef struct {
     jcal_hinge_window_config_t cfg;
-    jcal_hinge_result_t result;
     void *storage;
     jcal_score_t score;
     jcal_select_gyr_t gyr;
@@ -106,11 +105,12 @@ typedef struct {
     float sign_margin;
     jcal_hinge_solve_t solve;
     jcal_hinge_accept_t accept;
+    bool has_axes;
     bool has_stepped;
     uint64_t stepped_us;  ///< Time of the last sample that step worked off.
     uint64_t solve_due_us;
-    jcal_gate_t gate;
-    jcal_inbox_t inbox;
+    /// A stream engine over the same samples: its bounds, its readiness; gate and inbox serve both.
+    jcal_hinge_t guard;
     uint32_t inbox_ids[JCAL_INBOX_CAPACITY];  ///< Number of each pair in the inbox.
 } jcal_hinge_window_t;
 

@@ -16,8 +16,8 @@ extern "C" {
 /// Private: pairs that wait for step.
 typedef struct {
     jcal_pair_t slots[JCAL_INBOX_CAPACITY];
-    volatile uint32_t written; ///< Pairs ever put in; written by push only.
-    volatile uint32_t taken;   ///< Pairs ever taken out; written by step only.
+    volatile uint32_t written;  ///< Pairs ever put in; written by push only.
+    volatile uint32_t taken;    ///< Pairs ever taken out; written by step only.
 } jcal_inbox_t;
 
 #ifdef __cplusplus

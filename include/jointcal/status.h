@@ -15,14 +15,14 @@ extern "C" {
 
 /// Result of a call. Zero is success, negative values are errors, positive values are notices.
 typedef enum {
-    JCAL_OK = 0,              ///< Done.
-    JCAL_REJECTED = 1,        ///< push: the sample was understood and not used; the gate says why.
-    JCAL_IDLE = 2,            ///< step: no sample was waiting.
-    JCAL_ERR_ARG = -1,        ///< A pointer is null or an argument is outside its documented range.
-    JCAL_ERR_CONFIG = -2,     ///< A field of the config is not finite or outside its documented range.
-    JCAL_ERR_STORAGE = -3,    ///< The storage handed over is too small or not aligned.
-    JCAL_ERR_FULL = -4,       ///< push: the inbox is full because step is not called often enough.
-    JCAL_ERR_SINGULAR = -5    ///< A matrix has no usable inverse (or holds a NaN).
+    JCAL_OK = 0,            ///< Done.
+    JCAL_REJECTED = 1,      ///< push: the sample was understood and not used; the gate says why.
+    JCAL_IDLE = 2,          ///< step: no sample was waiting.
+    JCAL_ERR_ARG = -1,      ///< A pointer is null or an argument is outside its documented range.
+    JCAL_ERR_CONFIG = -2,   ///< A field of the config is not finite or outside its documented range.
+    JCAL_ERR_STORAGE = -3,  ///< The storage handed over is too small or not aligned.
+    JCAL_ERR_FULL = -4,     ///< push: the inbox is full because step is not called often enough.
+    JCAL_ERR_SINGULAR = -5  ///< A matrix has no usable inverse (or holds a NaN).
 } jcal_status_t;
 
 /// What is known about the joint.
@@ -50,25 +50,26 @@ typedef enum {
 /// The motion that would help most.
 typedef enum {
     JCAL_HINT_NONE = 0,
-    JCAL_HINT_MOVE_JOINT = 1,      ///< Bend and stretch the joint; the two segments must turn differently.
-    JCAL_HINT_MOVE_SEGMENT1 = 2,   ///< Turn the proximal segment.
-    JCAL_HINT_MOVE_SEGMENT2 = 3,   ///< Turn the distal segment.
-    JCAL_HINT_TILT_AXIS = 4,       ///< Tilt the joint axis out of the horizontal, so that gravity shows its sense.
-    JCAL_HINT_CHECK_SENSORS = 5    ///< More of the same motion will not help: units, range, mounting or pairing are wrong.
+    JCAL_HINT_MOVE_JOINT = 1,     ///< Bend and stretch the joint; the two segments must turn differently.
+    JCAL_HINT_MOVE_SEGMENT1 = 2,  ///< Turn the proximal segment.
+    JCAL_HINT_MOVE_SEGMENT2 = 3,  ///< Turn the distal segment.
+    JCAL_HINT_TILT_AXIS = 4,      ///< Tilt the joint axis out of the horizontal, so that gravity shows its sense.
+    /// More of the same motion will not help: units, range, mounting or pairing are wrong.
+    JCAL_HINT_CHECK_SENSORS = 5
 } jcal_hint_t;
 
 /// Why the status is not `ready`.
 typedef enum {
     JCAL_REASON_NONE = 0,
-    JCAL_REASON_NO_DATA = 1,         ///< Too few accepted samples yet.
-    JCAL_REASON_NO_MOTION = 2,       ///< The segments hardly turn against each other.
-    JCAL_REASON_UNCERTAIN = 3,       ///< A bound is above its limit.
-    JCAL_REASON_SIGN_OPEN = 4,       ///< Both sign pairings explain the data about equally.
-    JCAL_REASON_OTHER_MINIMUM = 5,   ///< Other axes explain the data about equally well.
-    JCAL_REASON_DOES_NOT_FIT = 6,    ///< No hinge explains the data: other joint, or sensors that share none.
-    JCAL_REASON_BAD_SAMPLES = 7,     ///< Too many samples are rejected (saturated, frozen, repeated ...).
-    JCAL_REASON_WRONG_UNITS_GYR = 8, ///< Angular rates look like deg/s.
-    JCAL_REASON_WRONG_UNITS_ACC = 9  ///< Accelerations look like g.
+    JCAL_REASON_NO_DATA = 1,          ///< Too few accepted samples yet.
+    JCAL_REASON_NO_MOTION = 2,        ///< The segments hardly turn against each other.
+    JCAL_REASON_UNCERTAIN = 3,        ///< A bound is above its limit.
+    JCAL_REASON_SIGN_OPEN = 4,        ///< Both sign pairings explain the data about equally.
+    JCAL_REASON_OTHER_MINIMUM = 5,    ///< Other axes explain the data about equally well.
+    JCAL_REASON_DOES_NOT_FIT = 6,     ///< No hinge explains the data: other joint, or sensors that share none.
+    JCAL_REASON_BAD_SAMPLES = 7,      ///< Too many samples are rejected (saturated, frozen, repeated ...).
+    JCAL_REASON_WRONG_UNITS_GYR = 8,  ///< Angular rates look like deg/s.
+    JCAL_REASON_WRONG_UNITS_ACC = 9   ///< Accelerations look like g.
 } jcal_reason_t;
 
 /// Short English text for a call result; never null. Threads: no state.

@@ -23,13 +23,13 @@ typedef struct {
 
 /// One reading of one IMU in its own sensor frame.
 typedef struct {
-    jcal_vec3_t gyr_rad_s;   ///< Angular rate.
-    jcal_vec3_t acc_m_s2;    ///< Specific force: at rest 9.81 upward.
+    jcal_vec3_t gyr_rad_s;  ///< Angular rate.
+    jcal_vec3_t acc_m_s2;   ///< Specific force: at rest 9.81 upward.
 } jcal_imu_t;
 
 /// Simultaneous readings of the two IMUs of a joint: 1 on the proximal segment, 2 on the distal one.
 typedef struct {
-    uint64_t t_us;   ///< Time in microseconds, any origin, strictly increasing.
+    uint64_t t_us;  ///< Time in microseconds, any origin, strictly increasing.
     jcal_imu_t imu1;
     jcal_imu_t imu2;
 } jcal_pair_t;

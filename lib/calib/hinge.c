@@ -8,6 +8,7 @@
 #include "calib/hinge_model.h"
 #include "calib/hinge_point.h"
 #include "calib/hinge_search.h"
+#include "calib/hinge_stream.h"
 #include "jointcal/vec3.h"
 #include "math/scalar.h"
 #include "math/solve.h"
@@ -30,11 +31,12 @@
 /// Time constant of the product of the rates, s.
 #define PRODUCT_TIME_S 0.2f
 
-/// Readings of the same pose add little: their weight falls like 1 / (1 + t) while both specific forces stay within this, (m/s^2)^2.
+/// Readings of the same pose add little: their weight falls like 1 / (1 + t) while both specific forces stay within
+/// this, (m/s^2)^2.
 #define DWELL_ACC2 1.0f
 
-/// Sums are halved when they reach this: about half an hour of brisk motion. One more sample then changes a sum by 2^-17 of
-/// itself, a hundred times what float32 resolves.
+/// Sums are halved when they reach this: about half an hour of brisk motion. One more sample then changes a sum by
+/// 2^-17 of itself, a hundred times what float32 resolves.
 #define INFORMATION_MAX 5e7f
 #define ACC_WEIGHT_MAX 2e4f
 
@@ -88,14 +90,8 @@ const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
     return jcal_gate_config_check(&config->gate);
 }
 
-jcal_status_t jcal_hinge_init(jcal_hinge_t *self, const jcal_hinge_config_t *config)
+void jcal_hinge_start(jcal_hinge_t *self, const jcal_hinge_config_t *config)
 {
-    if ((self == NULL) || (config == NULL)) {
-        return JCAL_ERR_ARG;
-    }
-    if (jcal_hinge_config_check(config) != NULL) {
-        return JCAL_ERR_CONFIG;
-    }
     const jcal_hinge_config_t cfg = *config; /* the caller may hand over self->cfg */
     *self = (jcal_hinge_t){0};
     self->cfg = cfg;
@@ -107,6 +103,17 @@ jcal_status_t jcal_hinge_init(jcal_hinge_t *self, const jcal_hinge_config_t *con
     self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
     self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
     self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+}
+
+jcal_status_t jcal_hinge_init(jcal_hinge_t *self, const jcal_hinge_config_t *config)
+{
+    if ((self == NULL) || (config == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_hinge_config_check(config) != NULL) {
+        return JCAL_ERR_CONFIG;
+    }
+    jcal_hinge_start(self, config);
     return JCAL_OK;
 }
 
@@ -173,7 +180,8 @@ static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     jcal_sym_rank1(self->moments.acc, 7u, y, sample->acc_weight);
     jcal_hinge_evidence_watch(&self->evidence, sample);
     if (self->has_point) {
-        jcal_hinge_evidence_add(&self->evidence, &self->point, self->acc_constant_m_s2, self->cfg.gyr_bias_rad_s, sample);
+        jcal_hinge_evidence_add(&self->evidence, &self->point, self->acc_constant_m_s2, self->cfg.gyr_bias_rad_s,
+                                sample);
     }
     const float information = self->evidence.axis1.information_all + self->evidence.axis2.information_all;
     if ((information > INFORMATION_MAX) || (self->moments.acc[jcal_sym_at(6u, 6u)] > ACC_WEIGHT_MAX)) {
@@ -201,6 +209,25 @@ static void work(jcal_hinge_t *self)
     self->slice = (uint8_t)((self->slice + 1u) % SLICES_PER_CYCLE);
 }
 
+void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
+{
+    const float since_s = (float)(pair->t_us - self->last_us) * MICROSECONDS;
+    const bool first = !self->has_last;
+    self->last_us = pair->t_us;
+    self->has_last = true;
+    if (first) {
+        return;
+    }
+    const float dt_s = jcal_min(since_s, STEP_MAX_S);
+    const jcal_hinge_sample_t sample = weigh(self, pair, dt_s);
+    sum_up(self, &sample);
+    self->credit_s = jcal_min(self->credit_s + dt_s, (float)SLICES_MAX * SLICE_S);
+    for (unsigned i = 0u; (i < SLICES_MAX) && (self->credit_s >= SLICE_S); ++i) {
+        self->credit_s -= SLICE_S;
+        work(self);
+    }
+}
+
 jcal_status_t jcal_hinge_step(jcal_hinge_t *self)
 {
     jcal_pair_t pair;
@@ -210,21 +237,7 @@ jcal_status_t jcal_hinge_step(jcal_hinge_t *self)
     if (!jcal_inbox_take(&self->inbox, &pair)) {
         return JCAL_IDLE;
     }
-    const float since_s = (float)(pair.t_us - self->last_us) * MICROSECONDS;
-    const bool first = !self->has_last;
-    self->last_us = pair.t_us;
-    self->has_last = true;
-    if (first) {
-        return JCAL_OK;
-    }
-    const float dt_s = jcal_min(since_s, STEP_MAX_S);
-    const jcal_hinge_sample_t sample = weigh(self, &pair, dt_s);
-    sum_up(self, &sample);
-    self->credit_s = jcal_min(self->credit_s + dt_s, (float)SLICES_MAX * SLICE_S);
-    for (unsigned i = 0u; (i < SLICES_MAX) && (self->credit_s >= SLICE_S); ++i) {
-        self->credit_s -= SLICE_S;
-        work(self);
-    }
+    jcal_hinge_consume(self, &pair);
     return JCAL_OK;
 }
 

@@ -22,9 +22,9 @@
 /// Small-sample factor 1 + this / blocks.
 #define SMALL_SAMPLE 2.0f
 
-/// Noise power per direction across the axis is the mean of (|q1| - |q2|)^2 times a factor between 1/2, where the rates q
-/// across the axis are large, and 1 / 0.86, where they are nothing but noise (there the mean square of q is 2.3 times that
-/// mean); the line between, with a margin.
+/// Noise power per direction across the axis is the mean of (|q1| - |q2|)^2 times a factor between 1/2, where the
+/// rates q across the axis are large, and 1 / 0.86, where they are nothing but noise (there the mean square of q is
+/// 2.3 times that mean); the line between, with a margin.
 #define NOISE_MARGIN 1.15f
 #define NOISE_FREE 0.5f
 #define NOISE_SLOPE 1.6f
@@ -39,11 +39,12 @@
 /// Twice the standard deviation, squared.
 #define TWO_SIGMA2 4.0f
 
-/// Gauss-Newton steps of the last length that may lie between the estimate and its minimum: the sum of a series of steps that
-/// shrink by a third each, as they do where the cost is of fourth order.
+/// Gauss-Newton steps of the last length that may lie between the estimate and its minimum: the sum of a series of
+/// steps that shrink by a third each, as they do where the cost is of fourth order.
 #define STEPS_LEFT 1.5f
 
-/// Information below which a direction is open. The cost is in units of independent readings: 1 is one reading at 1 rad.
+/// Information below which a direction is open. The cost is in units of independent readings: 1 is one reading at 1
+/// rad.
 #define OPEN_INFORMATION 1.0f
 /// Squared bound of an open direction, rad^2: more than any angle.
 #define OPEN_BOUND2 10.0f
@@ -97,19 +98,20 @@ static float noise_power(const jcal_hinge_evidence_t *evidence)
     return NOISE_MARGIN * mean * (NOISE_FREE + (NOISE_SLOPE * ratio));
 }
 
-/// Share of the accelerometer's information that counts. What remains of (25) is mostly the neglected right-hand side of (17),
-/// which follows the motion, so it does not average out: the information is limited to what a fixed number of residuals of that
-/// size would leave.
+/// Share of the accelerometer's information that counts. What remains of (25) is mostly the neglected right-hand side
+/// of (17), which follows the motion, so it does not average out: the information is limited to what a fixed number
+/// of residuals of that size would leave.
 static float acc_trust(const jcal_hinge_lin_t *lin)
 {
     return 1.0f / (1.0f + (ACC_SYSTEMATIC * lin->cost_acc));
 }
 
-/// Information about the axes with the biases eliminated, S = A - C' B^-1 C (4 x 4); `gain` is B^-1 C, column by column.
+/// Information about the axes with the biases eliminated, S = A - C' B^-1 C (4 x 4); `gain` is B^-1 C, column by
+/// column.
 ///
-/// Noise in the regressors pretends information: the gradient -2 (w . j) q holds q's own noise. It is taken off before anything
-/// is concluded (4 noise sum (w . j)^2 for the rates, the residual power for the specific forces), else a stiff joint looks
-/// better known the longer it is watched.
+/// Noise in the regressors pretends information: the gradient -2 (w . j) q holds q's own noise. It is taken off
+/// before anything is concluded (4 noise sum (w . j)^2 for the rates, the residual power for the specific forces),
+/// else a stiff joint looks better known the longer it is watched.
 static bool information(const jcal_hinge_lin_t *lin, const float pretended[2], float s[10], float gain[AXIS][AXIS])
 {
     float b[10];
@@ -170,7 +172,8 @@ static float block_count(const jcal_hinge_scatter_t *scatter)
     return (closed * closed) / jcal_max(scatter->information2, 1e-20f);
 }
 
-/// Mean of what coarse blocks say and of what fine ones let expect, with the small-sample factor; never below the fine ones.
+/// Mean of what coarse blocks say and of what fine ones let expect, with the small-sample factor; never below the
+/// fine ones.
 static float blend(float coarse, float fine, float blocks)
 {
     const float mean = ((coarse * blocks) + (PRIOR_CORRELATION * fine * PRIOR_BLOCKS)) / (blocks + PRIOR_BLOCKS);
@@ -197,9 +200,9 @@ static float linear_bound2(const float values[AXIS], const float vectors[AXIS * 
 
 /// Squared bound from the second order, for motion in the plane across the axis, where the first order says nothing.
 ///
-/// With w along j the residual of a tilt s is (w . j)^2 s^2: s^2 is a linear unknown, known to +- 2 sigma, and unequal noise
-/// powers of the two sensors pass for a tilt. Information of s1^2 is that of (w1 . j1)^2 beside (w2 . j2)^2: none if the joint is
-/// stiff.
+/// With w along j the residual of a tilt s is (w . j)^2 s^2: s^2 is a linear unknown, known to +- 2 sigma, and
+/// unequal noise powers of the two sensors pass for a tilt. Information of s1^2 is that of (w1 . j1)^2 beside (w2 .
+/// j2)^2: none if the joint is stiff.
 static float second_order_bound2(const power_t *own, const power_t *other, float product, float noise, float scatter)
 {
     const float pretended = 2.0f * TWO_SIGMA2 * noise * (own->along2 + other->along2);
@@ -240,8 +243,8 @@ bool jcal_hinge_bounds(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin, jc
     /* A mismatch of the rates by a share of |w| can act alike in every sample: then it moves the estimate by no more than the
        root of (its power in the residual / information), by Cauchy and Schwarz. */
     const float mismatch = self->cfg.rate_mismatch;
-    const float mismatch_power = 4.0f * mismatch * mismatch * (power[0].mixed + power[1].mixed)
-                                 / (ONE_DIRECTION + SECOND_DIRECTION);
+    const float mismatch_power =
+        4.0f * mismatch * mismatch * (power[0].mixed + power[1].mixed) / (ONE_DIRECTION + SECOND_DIRECTION);
     float bounds[2];
     out->inflation = 0.0f;
     for (unsigned axis = 0u; axis < 2u; ++axis) {

@@ -9,9 +9,10 @@
 
 /// What a judgement rests on.
 typedef struct {
-    float bound1_rad;   ///< 95 % bound of axis 1; JCAL_BOUND_UNKNOWN_RAD if its direction is open.
+    float bound1_rad;  ///< 95 % bound of axis 1; JCAL_BOUND_UNKNOWN_RAD if its direction is open.
     float bound2_rad;
-    float inflation;    ///< How much more the gradient scatters than independent residuals of the assumed size would make it.
+    /// How much more the gradient scatters than independent residuals of the assumed size would make it.
+    float inflation;
 } jcal_hinge_bounds_t;
 
 /// Bounds at the estimate; `lin` is the linearised cost there. False if there is not enough data for a statement.

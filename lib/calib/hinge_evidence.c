@@ -17,8 +17,8 @@
 /// Weight of the accelerometer part when information is measured; only proportions matter.
 #define ACC_INFORMATION 4.0f
 
-/// Coarse blocks last a twentieth of the time covered, within these limits, so that there are soon enough of them and later
-/// ones are longer than what makes residuals similar from one sample to the next.
+/// Coarse blocks last a twentieth of the time covered, within these limits, so that there are soon enough of them and
+/// later ones are longer than what makes residuals similar from one sample to the next.
 #define BLOCK_MIN_S 0.1f
 #define BLOCK_MAX_S 1.0f
 #define BLOCK_SHARE 0.05f
@@ -30,7 +30,8 @@
 /// Shortest base of the difference quotient of the rates, s, and the longest across which it still means something.
 #define TURN_BASE_S 0.019f
 #define TURN_BASE_MAX_S 0.1f
-/// Rates, squared, below which the turn says nothing, (rad/s)^2, and what counts as a strong one as a share of |w|^3, squared.
+/// Rates, squared, below which the turn says nothing, (rad/s)^2, and what counts as a strong one as a share of |w|^3,
+/// squared.
 #define TURN_RATE2 0.1f
 #define TURN_SHARE 0.03f
 
@@ -52,9 +53,9 @@ void jcal_hinge_evidence_watch(jcal_hinge_evidence_t *self, const jcal_hinge_sam
 
 /// What one sensor's axis does to a sample.
 typedef struct {
-    float along;           ///< (w - b) . j
-    jcal_vec3_t across;    ///< The rest of w - b.
-    float across2;         ///< Its square.
+    float along;         ///< (w - b) . j
+    jcal_vec3_t across;  ///< The rest of w - b.
+    float across2;       ///< Its square.
 } view_t;
 
 static view_t look(const jcal_hinge_axis_t *axis, jcal_vec3_t w)
@@ -108,7 +109,8 @@ static void advance(jcal_hinge_scatter_t *scatter, float information, float dt_s
     }
 }
 
-/// Gradient of the sample's cost with respect to one axis; gyr and acc are weight times residual, with the sensor's sign.
+/// Gradient of the sample's cost with respect to one axis; gyr and acc are weight times residual, with the sensor's
+/// sign.
 ///
 /// With e = |u1 x j1|^2 - |u2 x j2|^2:  de/dj = -2 (u . j) u_across,  de/db = -2 u_across; for (25): de/dj = a.
 static void add_score(jcal_hinge_scatter_t *scatter, const jcal_hinge_axis_t *axis, const view_t *view, jcal_vec3_t acc,
@@ -128,10 +130,11 @@ static void add_score(jcal_hinge_scatter_t *scatter, const jcal_hinge_axis_t *ax
 
 /// The turn of the rate across the axis about the axis, times its square: what both sensors must see alike.
 ///
-/// The rate across the axis is one vector in space. Seen from sensor i it turns about j with (u' . (j x u)) / |u|^2, and the
-/// sensor itself turns with w . j, so j . (w x w') + (w . j) |w x j|^2 is the same for both sensors. It changes its sign with j,
-/// which no other gyroscope term does: it tells the sign pairing wherever the motion leaves the plane. With rates a and b at a
-/// distance T, w = (a + b) / 2 and w' = (b - a) / T, the first term is j . (a x b) / T. Source: docs/METHOD.md section 4.
+/// The rate across the axis is one vector in space. Seen from sensor i it turns about j with (u' . (j x u)) / |u|^2,
+/// and the sensor itself turns with w . j, so j . (w x w') + (w . j) |w x j|^2 is the same for both sensors. It
+/// changes its sign with j, which no other gyroscope term does: it tells the sign pairing wherever the motion leaves
+/// the plane. With rates a and b at a distance T, w = (a + b) / 2 and w' = (b - a) / T, the first term is j . (a x b)
+/// / T. Source: docs/METHOD.md section 4.
 static float turn(const jcal_hinge_axis_t *axis, jcal_vec3_t before, jcal_vec3_t now, float base_s)
 {
     const jcal_vec3_t middle = jcal_vec3_scale(jcal_vec3_add(before, now), 0.5f);
@@ -167,7 +170,8 @@ static void add_turn(jcal_hinge_evidence_t *self, const jcal_hinge_point_t *poin
     self->turn_time_s += base_s * weight * squares;
 }
 
-static void add_fit(jcal_hinge_evidence_t *self, const view_t *view1, const view_t *view2, const jcal_hinge_sample_t *sample)
+static void add_fit(jcal_hinge_evidence_t *self, const view_t *view1, const view_t *view2,
+                    const jcal_hinge_sample_t *sample)
 {
     const float error = sqrtf(view1->across2) - sqrtf(view2->across2);
     const float error2 = error * error;
@@ -189,8 +193,8 @@ void jcal_hinge_evidence_add(jcal_hinge_evidence_t *self, const jcal_hinge_point
     const view_t view1 = look(&point->axis1, sample->w1);
     const view_t view2 = look(&point->axis2, sample->w2);
     const float gyr = sample->gyr_weight * (view1.across2 - view2.across2);
-    const float acc_residual = jcal_vec3_dot(point->axis1.j, sample->a1) - jcal_vec3_dot(point->axis2.j, sample->a2)
-                               - acc_constant_m_s2;
+    const float acc_residual =
+        jcal_vec3_dot(point->axis1.j, sample->a1) - jcal_vec3_dot(point->axis2.j, sample->a2) - acc_constant_m_s2;
     const float acc = sample->acc_weight * acc_residual;
     const float residuals1[2] = {gyr, acc};
     const float residuals2[2] = {-gyr, -acc};

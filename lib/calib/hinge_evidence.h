@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// What is summed at the running estimate, sample by sample: how its gradient scatters, how well it fits, which sign pairing
-/// the data prefer. Private. The moments know nothing of an estimate; these sums do, and begin anew when it moves far.
+/// What is summed at the running estimate, sample by sample: how its gradient scatters, how well it fits, which sign
+/// pairing the data prefer. Private. The moments know nothing of an estimate; these sums do, and begin anew when it
+/// moves far.
 #ifndef JCAL_HINGE_EVIDENCE_H
 #define JCAL_HINGE_EVIDENCE_H
 

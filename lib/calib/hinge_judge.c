@@ -68,18 +68,18 @@ static sign_t compare_signs(const jcal_hinge_t *self, const jcal_hinge_lin_t *li
     const float gyr_other = jcal_hinge_cost_gyr(&self->moments, &flip);
     const float acc_time_s = (evidence->pair_acc * evidence->pair_acc) / jcal_max(evidence->pair_acc2, 1e-20f);
     const float acc_odds = (acc_time_s / ACC_MEMORY_S) * jcal_ln(ratio_of(acc_other, lin->cost_acc));
-    const float turn_odds = (evidence->turn_time_s / TURN_MEMORY_S)
-                            * jcal_ln(ratio_of(evidence->turn_other, evidence->turn_same));
+    const float turn_odds =
+        (evidence->turn_time_s / TURN_MEMORY_S) * jcal_ln(ratio_of(evidence->turn_other, evidence->turn_same));
     sign.evidence = 0.5f * (acc_odds + turn_odds);
-    sign.margin = (acc_other + gyr_other + evidence->turn_other)
-                  / jcal_max(lin->cost_acc + lin->cost_gyr + evidence->turn_same, 1e-20f);
+    sign.margin = (acc_other + gyr_other + evidence->turn_other) /
+                  jcal_max(lin->cost_acc + lin->cost_gyr + evidence->turn_same, 1e-20f);
     return sign;
 }
 
 /// True if one sensor turns about nearly one line, and that line is not the estimated axis.
 ///
-/// In such motion the residual is of fourth order in a tilt, and a tilt together with biases can make a well of its own beside
-/// the true one. The line itself, the principal direction of the rates, is then the other explanation.
+/// In such motion the residual is of fourth order in a tilt, and a tilt together with biases can make a well of its
+/// own beside the true one. The line itself, the principal direction of the rates, is then the other explanation.
 static bool avoids_principal_line(const jcal_hinge_t *self, const jcal_hinge_axis_t *axis, unsigned first)
 {
     const float *const sums = &self->moments.gyr[jcal_sym_at(JCAL_HINGE_Z_ONE, first)]; /* xx, yy, zz, xy, xz, yz */
@@ -99,8 +99,8 @@ static bool has_rival(const jcal_hinge_t *self, float cost, float inflation)
     if (self->search.rounds == 0u) {
         return true;
     }
-    if (avoids_principal_line(self, &self->point.axis1, JCAL_HINGE_Z_W1W1)
-        || avoids_principal_line(self, &self->point.axis2, JCAL_HINGE_Z_W2W2)) {
+    if (avoids_principal_line(self, &self->point.axis1, JCAL_HINGE_Z_W1W1) ||
+        avoids_principal_line(self, &self->point.axis2, JCAL_HINGE_Z_W2W2)) {
         return true;
     }
     if (!self->search.has_rival) {
@@ -143,8 +143,7 @@ static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
 }
 
 /// The first thing that keeps the estimate from being ready, the worst first.
-static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_bounds_t *bounds, const sign_t *sign,
-                                 const jcal_hinge_lin_t *lin)
+static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_bounds_t *bounds, const sign_t *sign)
 {
     const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
     if (complaint != JCAL_REASON_NONE) {
@@ -163,7 +162,8 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
     if (!hinted && !((sign->evidence > SIGN_EVIDENCE_MIN) && (sign->margin > SIGN_MARGIN_MIN))) {
         return JCAL_REASON_SIGN_OPEN;
     }
-    return has_rival(self, jcal_hinge_cost(self, &self->point), bounds->inflation) ? JCAL_REASON_OTHER_MINIMUM : JCAL_REASON_NONE;
+    return has_rival(self, jcal_hinge_cost(self, &self->point), bounds->inflation) ? JCAL_REASON_OTHER_MINIMUM
+                                                                                   : JCAL_REASON_NONE;
 }
 
 static jcal_weak_t weak_for(jcal_reason_t reason, const jcal_hinge_bounds_t *bounds)
@@ -213,5 +213,5 @@ void jcal_hinge_judge(jcal_hinge_t *self)
         return;
     }
     const sign_t sign = compare_signs(self, &lin);
-    report(self, find_reason(self, &bounds, &sign, &lin), &bounds, &sign);
+    report(self, find_reason(self, &bounds, &sign), &bounds, &sign);
 }

@@ -54,11 +54,12 @@ void jcal_hinge_coefficients(const jcal_hinge_point_t *point, float f[JCAL_HINGE
 {
     coefficients_of_sensor(&point->axis1, 1.0f, &f[JCAL_HINGE_Z_W1W1], &f[JCAL_HINGE_Z_W1]);
     coefficients_of_sensor(&point->axis2, -1.0f, &f[JCAL_HINGE_Z_W2W2], &f[JCAL_HINGE_Z_W2]);
-    f[JCAL_HINGE_Z_ONE] = jcal_vec3_dot(point->axis1.bias, point->axis1.bias)
-                          - jcal_vec3_dot(point->axis2.bias, point->axis2.bias);
+    f[JCAL_HINGE_Z_ONE] =
+        jcal_vec3_dot(point->axis1.bias, point->axis1.bias) - jcal_vec3_dot(point->axis2.bias, point->axis2.bias);
 }
 
-/// Column of df/d(axis) along the tangent t: d(I - j j') = -(j t' + t j'), and the bias stays across j: d(P b) = -j (t . b).
+/// Column of df/d(axis) along the tangent t: d(I - j j') = -(j t' + t j'), and the bias stays across j: d(P b) = -j
+/// (t . b).
 static void axis_column(const jcal_hinge_axis_t *axis, jcal_vec3_t t, float sign, float products_out[6])
 {
     const jcal_vec3_t j = axis->j;
@@ -71,7 +72,8 @@ static void axis_column(const jcal_hinge_axis_t *axis, jcal_vec3_t t, float sign
 }
 
 /// Fills the 19 x 8 derivative F of f; columns: axis1 u, v; axis2 u, v; bias1 u, v; bias2 u, v.
-static void derivative(const jcal_hinge_point_t *point, float bias_unit, float columns[JCAL_HINGE_UNKNOWNS][JCAL_HINGE_FEATURES])
+static void derivative(const jcal_hinge_point_t *point, float bias_unit,
+                       float columns[JCAL_HINGE_UNKNOWNS][JCAL_HINGE_FEATURES])
 {
     for (unsigned sensor = 0u; sensor < 2u; ++sensor) {
         const jcal_hinge_axis_t *const axis = (sensor == 0u) ? &point->axis1 : &point->axis2;
@@ -216,8 +218,8 @@ void jcal_hinge_linearise(const jcal_hinge_moments_t *moments, const jcal_hinge_
 }
 
 /// (f' - f)' M (f' + f) for the two parts, so that nothing is lost when both costs are large and nearly equal.
-float jcal_hinge_change(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg, const jcal_hinge_point_t *from,
-                        const jcal_hinge_point_t *to)
+float jcal_hinge_change(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg,
+                        const jcal_hinge_point_t *from, const jcal_hinge_point_t *to)
 {
     float f[JCAL_HINGE_FEATURES];
     float g[JCAL_HINGE_FEATURES];
@@ -232,8 +234,9 @@ float jcal_hinge_change(const jcal_hinge_moments_t *moments, const jcal_hinge_co
     split(y, x, ACC_AXES);
     acc_times(moments, acc_prior(cfg->acc_bias_m_s2), y, sum);
     const float unit = 1.0f / (cfg->gyr_bias_rad_s * cfg->gyr_bias_rad_s);
-    const float of_biases = jcal_vec3_dot(to->axis1.bias, to->axis1.bias) - jcal_vec3_dot(from->axis1.bias, from->axis1.bias)
-                            + jcal_vec3_dot(to->axis2.bias, to->axis2.bias) - jcal_vec3_dot(from->axis2.bias, from->axis2.bias);
+    const float of_biases =
+        jcal_vec3_dot(to->axis1.bias, to->axis1.bias) - jcal_vec3_dot(from->axis1.bias, from->axis1.bias) +
+        jcal_vec3_dot(to->axis2.bias, to->axis2.bias) - jcal_vec3_dot(from->axis2.bias, from->axis2.bias);
     return jcal_sym_bilinear(moments->gyr, JCAL_HINGE_FEATURES, f, g) + dot(x, sum, ACC_AXES) + (unit * of_biases);
 }
 

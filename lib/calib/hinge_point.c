@@ -40,8 +40,8 @@ void jcal_hinge_point_move(jcal_hinge_point_t *point, const float d[8], float bi
 
 bool jcal_hinge_same_lines(const jcal_hinge_point_t *point, jcal_vec3_t j1, jcal_vec3_t j2)
 {
-    return (fabsf(jcal_vec3_dot(point->axis1.j, j1)) > SAME_COSINE)
-           && (fabsf(jcal_vec3_dot(point->axis2.j, j2)) > SAME_COSINE);
+    return (fabsf(jcal_vec3_dot(point->axis1.j, j1)) > SAME_COSINE) &&
+           (fabsf(jcal_vec3_dot(point->axis2.j, j2)) > SAME_COSINE);
 }
 
 float jcal_hinge_main_sign(jcal_vec3_t v)

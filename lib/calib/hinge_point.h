@@ -2,8 +2,8 @@
 /// @file
 /// Moving about in the parameter space of the hinge. Private.
 ///
-/// Each axis carries its own tangent direction u along (v = j x u), so that sums in tangent coordinates keep their meaning
-/// while the axis moves a little.
+/// Each axis carries its own tangent direction u along (v = j x u), so that sums in tangent coordinates keep their
+/// meaning while the axis moves a little.
 #ifndef JCAL_HINGE_POINT_H
 #define JCAL_HINGE_POINT_H
 

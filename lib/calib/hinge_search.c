@@ -20,7 +20,8 @@
 #define PROBE_STEPS 6u
 #define REFINE_STEPS 2u
 
-/// A change of cost too small to matter, in units of one independent reading; rounding may make a good step look worse by it.
+/// A change of cost too small to matter, in units of one independent reading; rounding may make a good step look
+/// worse by it.
 #define HARMLESS_COST 0.01f
 /// Damping never grows beyond this: the sums change with every sample, so a step that was refused may be right soon.
 #define DAMPING_MAX 1.0f
@@ -42,7 +43,8 @@ static float group_scale(const float *matrix, size_t first, size_t last)
     return (largest > 0.0f) ? (1.0f / sqrtf(largest)) : 1.0f;
 }
 
-/// A damped step d (8) over the first n unknowns, axes and biases each brought to a common scale. False if there is none.
+/// A damped step d (8) over the first n unknowns, axes and biases each brought to a common scale. False if there is
+/// none.
 static bool step(const jcal_hinge_lin_t *lin, size_t n, float *damping, float d[8], float *predicted)
 {
     const float scales[2] = {group_scale(lin->matrix, 0u, 4u), group_scale(lin->matrix, 4u, 8u)};
@@ -75,7 +77,8 @@ static bool step(const jcal_hinge_lin_t *lin, size_t n, float *damping, float d[
     return true;
 }
 
-/// Moves a point by one step over n unknowns if that lowers the cost; `lengths` are those of the steps of both axes, rad.
+/// Moves a point by one step over n unknowns if that lowers the cost; `lengths` are those of the steps of both axes,
+/// rad.
 static void descend(const jcal_hinge_t *self, size_t n, jcal_hinge_point_t *point, float *damping, float lengths[2])
 {
     jcal_hinge_lin_t lin;
@@ -103,9 +106,10 @@ static void descend(const jcal_hinge_t *self, size_t n, jcal_hinge_point_t *poin
 float jcal_hinge_cost(const jcal_hinge_t *self, const jcal_hinge_point_t *point)
 {
     const float unit = self->cfg.gyr_bias_rad_s;
-    const float biases = jcal_vec3_dot(point->axis1.bias, point->axis1.bias) + jcal_vec3_dot(point->axis2.bias, point->axis2.bias);
-    return jcal_hinge_cost_gyr(&self->moments, point) + jcal_hinge_cost_acc(&self->moments, &self->cfg, point)
-           + (biases / (unit * unit));
+    const float biases =
+        jcal_vec3_dot(point->axis1.bias, point->axis1.bias) + jcal_vec3_dot(point->axis2.bias, point->axis2.bias);
+    return jcal_hinge_cost_gyr(&self->moments, point) + jcal_hinge_cost_acc(&self->moments, &self->cfg, point) +
+           (biases / (unit * unit));
 }
 
 void jcal_hinge_track(jcal_hinge_t *self)
@@ -118,11 +122,13 @@ void jcal_hinge_track(jcal_hinge_t *self)
     self->acc_constant_m_s2 = jcal_hinge_acc_constant(&self->moments, &self->cfg, &self->point);
 }
 
-/// Eigenvector `which` of the weighted sum of w w' that begins at feature `first`; the moments with the feature 1 hold it.
+/// Eigenvector `which` of the weighted sum of w w' that begins at feature `first`; the moments with the feature 1
+/// hold it.
 static jcal_vec3_t rate_eigenvector(const jcal_hinge_moments_t *moments, unsigned first, unsigned which)
 {
     const float *const sums = &moments->gyr[jcal_sym_at(JCAL_HINGE_Z_ONE, first)];
-    const float packed[6] = {sums[0], sums[3], sums[1], sums[4], sums[5], sums[2]}; /* xx, yy, zz, xy, xz, yz -> lower triangle */
+    const float packed[6] = {sums[0], sums[3], sums[1],
+                             sums[4], sums[5], sums[2]}; /* xx, yy, zz, xy, xz, yz -> lower triangle */
     float values[3];
     float vectors[9];
     if (jcal_eig_symmetric(packed, 3u, values, vectors) != JCAL_OK) {
@@ -203,9 +209,9 @@ static void adopt(jcal_hinge_t *self, const jcal_hinge_point_t *probe, bool same
 /// True if the probe runs into the estimate, so that its further steps would tell nothing.
 static bool has_joined(const jcal_hinge_t *self, const jcal_hinge_point_t *probe)
 {
-    return self->has_point && (fabsf(jcal_vec3_dot(self->point.axis1.j, probe->axis1.j)) > JOINED_COSINE)
-           && (fabsf(jcal_vec3_dot(self->point.axis2.j, probe->axis2.j)) > JOINED_COSINE)
-           && same_pairing(&self->point, probe);
+    return self->has_point && (fabsf(jcal_vec3_dot(self->point.axis1.j, probe->axis1.j)) > JOINED_COSINE) &&
+           (fabsf(jcal_vec3_dot(self->point.axis2.j, probe->axis2.j)) > JOINED_COSINE) &&
+           same_pairing(&self->point, probe);
 }
 
 /// A better minimum close by: the estimate goes there, and what was summed at the old place still holds nearly enough.

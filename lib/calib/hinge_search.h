@@ -11,8 +11,8 @@ void jcal_hinge_track(jcal_hinge_t *self);
 
 /// One slice of the global check: begins a probe from the next start, or moves it by one step, or files what it found.
 ///
-/// Starts: the 9 pairs of eigenvectors of the rates' second moments, each with both sign pairings, then the present estimate
-/// with axis 2 turned round.
+/// Starts: the 9 pairs of eigenvectors of the rates' second moments, each with both sign pairings, then the present
+/// estimate with axis 2 turned round.
 void jcal_hinge_search(jcal_hinge_t *self);
 
 /// Cost of both parts at a point and of the prior of its biases.

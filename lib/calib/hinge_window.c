@@ -4,12 +4,14 @@
 #include "jointcal/hinge_window.h"
 
 #include "calib/hinge_cost.h"
+#include "calib/hinge_point.h"
+#include "calib/hinge_stream.h"
 #include "calib/hinge_window_solve.h"
 #include "jointcal/vec3.h"
 #include "math/angle.h"
+#include "math/scalar.h"
+#include "math/sphere.h"
 #include "sample/inbox.h"
-
-#include <math.h>
 
 static const float us_per_s = 1e6f;
 
@@ -110,12 +112,7 @@ static void forget(jcal_hinge_window_t *self)
     *self = (jcal_hinge_window_t){0};
     self->cfg = cfg;
     self->storage = storage;
-    self->result.engine = JCAL_ENGINE_WINDOW;
-    self->result.weak = JCAL_WEAK_SIGN;
-    self->result.reason = JCAL_REASON_NO_DATA;
-    self->result.uncertainty1_rad = JCAL_HALF_PI;
-    self->result.uncertainty2_rad = JCAL_HALF_PI;
-    jcal_gate_init(&self->gate, &cfg.hinge.gate);
+    jcal_hinge_start(&self->guard, &cfg.hinge);
     jcal_score_init(&self->score, cfg.half_window);
     jcal_select_gyr_init(&self->gyr, cfg.n_max);
     jcal_select_acc_init(&self->acc, cfg.n_max, cfg.acc_min, cfg.energy_max_rad2_s2);
@@ -157,35 +154,16 @@ jcal_status_t jcal_hinge_window_push(jcal_hinge_window_t *self, const jcal_pair_
     if ((self == NULL) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
-    if (jcal_inbox_full(&self->inbox)) {
+    if (jcal_inbox_full(&self->guard.inbox)) {
         return JCAL_ERR_FULL;
     }
-    const uint32_t id = self->gate.samples;
-    if (jcal_gate_check(&self->gate, pair) != JCAL_REJECT_NONE) {
+    const uint32_t id = self->guard.gate.samples;
+    if (jcal_gate_check(&self->guard.gate, &self->cfg.hinge.gate, pair) != JCAL_REJECT_NONE) {
         return JCAL_REJECTED;
     }
-    self->inbox_ids[self->inbox.written % JCAL_INBOX_CAPACITY] = id;
-    jcal_inbox_put(&self->inbox, pair);
+    self->inbox_ids[self->guard.inbox.written % JCAL_INBOX_CAPACITY] = id;
+    jcal_inbox_put(&self->guard.inbox, pair);
     return JCAL_OK;
-}
-
-static float dominant_sign(jcal_vec3_t v)
-{
-    const float largest = ((fabsf(v.x) >= fabsf(v.y)) && (fabsf(v.x) >= fabsf(v.z))) ? v.x
-                          : (fabsf(v.y) >= fabsf(v.z))                               ? v.y
-                                                                                     : v.z;
-    return (largest < 0.0f) ? -1.0f : 1.0f;
-}
-
-/* What this engine knows itself; status, bounds and progress are judged elsewhere. */
-static void publish(jcal_hinge_window_t *self, uint64_t t_us)
-{
-    const float sign = dominant_sign(self->axes.j[0]);
-    self->result.axis1 = jcal_vec3_scale(self->axes.j[0], sign);
-    self->result.axis2 = jcal_vec3_scale(self->axes.j[1], sign);
-    self->result.sign_margin = self->sign_margin;
-    self->result.paper_accepted = self->accept.accepted;
-    self->result.t_us = t_us;
 }
 
 /* Windows start anew after a gap; the time of the next full solve starts with the first sample. */
@@ -219,9 +197,9 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
     if (self == NULL) {
         return JCAL_ERR_ARG;
     }
-    const uint32_t id = self->inbox_ids[self->inbox.taken % JCAL_INBOX_CAPACITY];
+    const uint32_t id = self->inbox_ids[self->guard.inbox.taken % JCAL_INBOX_CAPACITY];
     jcal_pair_t pair;
-    if (!jcal_inbox_take(&self->inbox, &pair)) {
+    if (!jcal_inbox_take(&self->guard.inbox, &pair)) {
         return JCAL_IDLE;
     }
     keep_time(self, pair.t_us);
@@ -236,7 +214,7 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
     for (uint32_t slice = 0u; slice < JCAL_HINGE_WINDOW_SLICES; ++slice) {
         jcal_hinge_window_solve_slice(self, &rows);
     }
-    publish(self, pair.t_us);
+    jcal_hinge_consume(&self->guard, &pair);
     return JCAL_OK;
 }
 
@@ -249,17 +227,57 @@ jcal_status_t jcal_hinge_window_update(jcal_hinge_window_t *self, const jcal_pai
     return status;
 }
 
+/// The guard's verdict on this engine's axes: each bound grows by the angle between the two engines' axes, and the
+/// status is `ready` only where both agree on the pairing and the bounds still hold.
+static void judge_beside_guard(const jcal_hinge_window_t *self, jcal_hinge_result_t *result)
+{
+    const jcal_vec3_t guard1 = self->guard.point.axis1.j;
+    const jcal_vec3_t guard2 = self->guard.point.axis2.j;
+    const float apart1 = jcal_sphere_line_angle(guard1, result->axis1);
+    const float apart2 = jcal_sphere_line_angle(guard2, result->axis2);
+    result->uncertainty1_rad = jcal_min(result->uncertainty1_rad + apart1, JCAL_BOUND_UNKNOWN_RAD);
+    result->uncertainty2_rad = jcal_min(result->uncertainty2_rad + apart2, JCAL_BOUND_UNKNOWN_RAD);
+    if (result->status != JCAL_READY) {
+        return;
+    }
+    const bool same_pairing = (jcal_vec3_dot(guard1, result->axis1) * jcal_vec3_dot(guard2, result->axis2)) > 0.0f;
+    const float worst_rad = jcal_max(result->uncertainty1_rad, result->uncertainty2_rad);
+    if (!same_pairing) {
+        result->status = JCAL_AMBIGUOUS;
+        result->reason = JCAL_REASON_SIGN_OPEN;
+        result->weak = JCAL_WEAK_SIGN;
+        result->hint = JCAL_HINT_TILT_AXIS;
+    } else if (worst_rad > self->cfg.hinge.max_bound_rad) {
+        result->status = JCAL_COLLECTING;
+        result->reason = JCAL_REASON_UNCERTAIN;
+        result->weak = (result->uncertainty1_rad >= worst_rad) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
+        result->hint = JCAL_HINT_MOVE_JOINT;
+    } else {
+        /* Both engines agree. */
+    }
+}
+
 jcal_status_t jcal_hinge_window_get(const jcal_hinge_window_t *self, jcal_hinge_result_t *out)
 {
-    if ((self == NULL) || (out == NULL)) {
+    jcal_hinge_result_t result;
+    if ((self == NULL) || (out == NULL) || (jcal_hinge_get(&self->guard, &result) != JCAL_OK)) {
         return JCAL_ERR_ARG;
     }
-    *out = self->result;
-    out->samples = self->gate.samples;
-    for (size_t k = 0u; k < JCAL_REJECT_COUNT; ++k) {
-        out->rejected += self->gate.rejected_by[k];
-        out->rejected_by[k] = self->gate.rejected_by[k];
+    const float sign = jcal_hinge_main_sign(self->axes.j[0]);
+    result.engine = JCAL_ENGINE_WINDOW;
+    result.axis1 = jcal_vec3_scale(self->axes.j[0], sign);
+    result.axis2 = jcal_vec3_scale(self->axes.j[1], sign);
+    result.sign_margin = self->sign_margin;
+    result.paper_accepted = self->accept.accepted;
+    result.has_axes = result.has_axes && self->has_axes;
+    if (result.has_axes) {
+        judge_beside_guard(self, &result);
+    } else {
+        result.status = JCAL_COLLECTING;
+        result.axis1 = jcal_vec3(0.0f, 0.0f, 0.0f);
+        result.axis2 = jcal_vec3(0.0f, 0.0f, 0.0f);
     }
+    *out = result;
     return JCAL_OK;
 }
 

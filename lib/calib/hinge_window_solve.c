@@ -99,10 +99,10 @@ static void choose(jcal_hinge_window_t *self, const jcal_hinge_rows_t *rows)
     const jcal_hinge_axes_t wanted = excluded ? other_minimum : best;
     const bool better = !contradicts_hint(self->cfg.hinge.sign_hint, &wanted) &&
                         (jcal_hinge_cost_change(rows, &self->axes, &wanted) < 0.0f);
-    if (better || !self->result.has_axes) {
+    if (better || !self->has_axes) {
         self->axes = wanted;
         self->damping = solve->damping;
-        self->result.has_axes = true;
+        self->has_axes = true;
     }
     const jcal_hinge_axes_t other = other_pairing(&self->axes);
     enter(solve, PHASE_OTHER, &other);
@@ -159,7 +159,7 @@ void jcal_hinge_window_solve_reset(jcal_hinge_window_t *self)
 
 void jcal_hinge_window_follow(jcal_hinge_window_t *self, const jcal_hinge_rows_t *rows)
 {
-    if (self->result.has_axes) {
+    if (self->has_axes) {
         (void)iterate(rows, &self->axes, &self->damping);
     }
 }

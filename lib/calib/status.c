@@ -69,8 +69,8 @@ const char *jcal_hint_string(jcal_hint_t hint)
 
 const char *jcal_reason_string(jcal_reason_t reason)
 {
-    static const char *const words[] = {NULL,           "no_data",         "no_motion",       "uncertain",
-                                        "sign_open",    "other_minimum",   "does_not_fit",    "bad_samples",
-                                        "wrong_units_gyr", "wrong_units_acc"};
+    static const char *const words[] = {
+        NULL,           "no_data",     "no_motion",       "uncertain",      "sign_open", "other_minimum",
+        "does_not_fit", "bad_samples", "wrong_units_gyr", "wrong_units_acc"};
     return word(words, COUNT(words), (int)reason, NULL);
 }

@@ -15,8 +15,9 @@
 #define GRAVITY_MAX_M_S2 40.0f
 #define GRAVITY_TIME_S 1.0f
 
-/// With rates in rad/s the specific force changes at least about as much as the rates alone would turn it; with deg/s it
-/// changes 57 times less, 3283 times less in energy. The limit lies between, in the geometric middle of 1 and 1 / 3283.
+/// With rates in rad/s the specific force changes at least about as much as the rates alone would turn it; with deg/s
+/// it changes 57 times less, 3283 times less in energy. The limit lies between, in the geometric middle of 1 and 1 /
+/// 3283.
 #define TURN_SHARE_MIN 0.02f
 /// Energy that must have been expected before the share is believed, (m/s^2)^2.
 #define TURN_EXPECTED_MIN 200.0f
@@ -147,8 +148,8 @@ static bool acc_looks_wrong(const jcal_gate_sensor_t *sensor)
 
 static bool gyr_looks_wrong(const jcal_gate_sensor_t *sensor)
 {
-    return (sensor->turn_expected > TURN_EXPECTED_MIN)
-           && (sensor->turn_measured < (TURN_SHARE_MIN * sensor->turn_expected));
+    return (sensor->turn_expected > TURN_EXPECTED_MIN) &&
+           (sensor->turn_measured < (TURN_SHARE_MIN * sensor->turn_expected));
 }
 
 /// The checks that need no predecessor but that of the clock.
@@ -165,7 +166,8 @@ static jcal_reject_t check_time(const jcal_gate_t *self, const jcal_gate_config_
 }
 
 /// Takes in a continuous, finite sample; the first sample ever has no predecessor.
-static jcal_reject_t check_sensor(const jcal_gate_config_t *cfg, jcal_gate_sensor_t *sensor, const jcal_imu_t *imu, float dt_s)
+static jcal_reject_t check_sensor(const jcal_gate_config_t *cfg, jcal_gate_sensor_t *sensor, const jcal_imu_t *imu,
+                                  float dt_s)
 {
     float now[6];
     unpack(imu, now);
@@ -202,7 +204,8 @@ static jcal_reject_t check_values(jcal_gate_t *self, const jcal_gate_config_t *c
         self->has_last = true;
         start_sensor(&self->sensor1, &pair->imu1);
         start_sensor(&self->sensor2, &pair->imu2);
-        const bool wrong = acc_looks_wrong(&self->sensor1) || acc_looks_wrong(&self->sensor2);
+        const bool wrong = acc_looks_wrong(&self->sensor1) || acc_looks_wrong(&self->sensor2) ||
+                           is_beyond(cfg, self->sensor1.last) || is_beyond(cfg, self->sensor2.last);
         return wrong ? JCAL_REJECT_OUT_OF_RANGE : JCAL_REJECT_NONE;
     }
     const float dt_s = (float)(pair->t_us - self->last_us) * MICROSECONDS;

@@ -2,9 +2,9 @@
 /// @file
 /// Hands sample pairs from push to step. Private.
 ///
-/// One producer (push, maybe in an interrupt) and one consumer (step). Each index is written by one side only and read by
-/// the other, so on one core no lock is needed as long as 32-bit stores are atomic, as on any Cortex-M. The indices are
-/// volatile so that the compiler publishes a slot before it publishes the index.
+/// One producer (push, maybe in an interrupt) and one consumer (step). Each index is written by one side only and
+/// read by the other, so on one core no lock is needed as long as 32-bit stores are atomic, as on any Cortex-M. The
+/// indices are volatile so that the compiler publishes a slot before it publishes the index.
 #ifndef JCAL_INBOX_PRIVATE_H
 #define JCAL_INBOX_PRIVATE_H
 
