@@ -1,13 +1,18 @@
 """Tests of tools/python/jointcal_tools/measure: how runs are judged, and the classes of `never`."""
 
 import math
+import sys
 import unittest
+from pathlib import Path
 
 import numpy as np
 
-from jointcal_tools.measure import faults, never
-from jointcal_tools.measure.harness import Report, binomial_quantile, numbered, quantile
-from jointcal_tools.measure.judge import Verdict, line_angle_deg
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tools" / "python"))
+
+from jointcal_tools.measure import faults, never  # noqa: E402
+from jointcal_tools.measure.harness import Report, binomial_quantile, numbered, quantile  # noqa: E402
+from jointcal_tools.measure.judge import Verdict, line_angle_deg  # noqa: E402
 
 
 def verdict(ready, errors, wrong, bounds):

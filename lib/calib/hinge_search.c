@@ -251,10 +251,11 @@ static void file_probe(jcal_hinge_t *self, const jcal_hinge_point_t *probe)
         } else {
             keep_flip(search, probe);
         }
-    } else if (has_joined(self, probe)) {
-        return;
-    } else if (better && same_lines) {
-        slide(self, probe);
+    } else if (same_lines) {
+        /* What lies nearby is covered by the bound, unless it is the better place. */
+        if (better && !has_joined(self, probe)) {
+            slide(self, probe);
+        }
     } else if (better) {
         adopt(self, probe, false);
     } else if (!search->has_rival || (cost < jcal_hinge_cost_of_rival(self))) {

@@ -144,7 +144,7 @@ class Report:
         """At most `limit`; NaN fails, except in a quick run."""
         if self.quick and np.isnan(value):
             return
-        self.require(f"{text}, at most {limit:g}{unit}", f"{value:.3g}{unit}", value <= limit)
+        self.require(f"{text}, at most {limit:g}{unit}", f"{value:.4g}{unit}", value <= limit)
 
     def markdown(self) -> str:
         head = [f"# {self.title}", f"Written by `{self.command}`, library version {self.version}."]
