@@ -39,9 +39,12 @@
 /// Twice the standard deviation, squared.
 #define TWO_SIGMA2 4.0f
 
+/// Share of the rate across the axis that a tilt within the bound may make up for the first order to hold.
+#define LINEAR_SHARE 0.4f
+
 /// Gauss-Newton steps of the last length that may lie between the estimate and its minimum: the sum of a series of
 /// steps that shrink by a third each, as they do where the cost is of fourth order.
-#define STEPS_LEFT 1.5f
+#define STEPS_LEFT 2.5f
 
 /// Information below which a direction is open. The cost is in units of independent readings: 1 is one reading at 1
 /// rad.
@@ -63,9 +66,10 @@ static void along_coefficients(jcal_vec3_t j, unsigned first, float f[JCAL_HINGE
     f[first + 5u] = 2.0f * j.y * j.z;
 }
 
-/// Sums of one sensor that the bounds need: of (w . j)^2, of its square, and of |w x j|^2 |w|^2.
+/// Sums of one sensor that the bounds need: of (w . j)^2, of |w|^2, of (w . j)^4, and of |w x j|^2 |w|^2.
 typedef struct {
     float along2;
+    float all2;
     float along4;
     float mixed;
 } power_t;
@@ -76,13 +80,15 @@ static power_t powers(const jcal_hinge_moments_t *moments, jcal_vec3_t j, unsign
     float all[JCAL_HINGE_FEATURES] = {0.0f};
     float across[JCAL_HINGE_FEATURES];
     along_coefficients(j, first, along);
-    power_t power = {0.0f, 0.0f, 0.0f};
+    power_t power = {0.0f, 0.0f, 0.0f, 0.0f};
     for (unsigned i = first; i < (first + 3u); ++i) {
         all[i] = 1.0f;
     }
     for (unsigned i = 0u; i < JCAL_HINGE_FEATURES; ++i) {
         across[i] = all[i] - along[i];
-        power.along2 += along[i] * moments->gyr[jcal_sym_at(JCAL_HINGE_Z_ONE, i)];
+        const float sum = moments->gyr[jcal_sym_at(JCAL_HINGE_Z_ONE, i)];
+        power.along2 += along[i] * sum;
+        power.all2 += all[i] * sum;
     }
     power.along4 = jcal_sym_quadratic(moments->gyr, JCAL_HINGE_FEATURES, along);
     power.mixed = jcal_sym_bilinear(moments->gyr, JCAL_HINGE_FEATURES, across, all);
@@ -163,6 +169,15 @@ static float scatter_ratio(const jcal_hinge_lin_t *lin, const float *scatter, un
     const float d = lin->matrix[jcal_sym_at(r + 1u, r + 1u)];
     const float determinant = jcal_max((a * d) - (b * b), (1e-6f * a * d) + 1e-20f);
     return 0.5f * ((d * g00) - (2.0f * b * g01) + (a * g11)) / determinant;
+}
+
+/// Squared bound from both orders. The first order holds as long as a tilt by the bound changes the rate across the axis by
+/// less than a share of what it is; beyond that its gradient turns round, and the worse of both counts.
+static float combine(float first_order, float second_order, const power_t *own)
+{
+    const float across2 = own->all2 - own->along2;
+    const bool first_holds = first_order * own->along2 < (LINEAR_SHARE * LINEAR_SHARE * across2);
+    return first_holds ? jcal_min(first_order, second_order) : jcal_max(first_order, second_order);
 }
 
 /// Finished coarse blocks, each counted by its share of the information: (sum I)^2 / sum I^2.
@@ -256,7 +271,7 @@ bool jcal_hinge_bounds(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin, jc
         const float second = scale * blend(scatter->second, scatter->fine_second, blocks[axis]);
         const float first_order = linear_bound2(values, vectors, axis, inflation + mismatch_power);
         const float second_order = second_order_bound2(&power[axis], &power[1u - axis], product, noise, second);
-        const float around_minimum = sqrtf(jcal_min(first_order, second_order));
+        const float around_minimum = sqrtf(combine(first_order, second_order, &power[axis]));
         bounds[axis] = jcal_min(around_minimum + (STEPS_LEFT * self->moved_rad[axis]), JCAL_BOUND_UNKNOWN_RAD);
         out->inflation = jcal_max(inflation, out->inflation);
     }

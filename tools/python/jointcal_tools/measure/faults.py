@@ -179,7 +179,7 @@ def frozen(rng: np.random.Generator) -> Case:
     else:
         case = real_or_simulated(rng)
     duration_s = len(case.rec) / case.rec.rate_hz
-    begin_s = {"from the start": 0.0, "early": rng.uniform(0.0, 1.5)}.get(kind, rng.uniform(0.1, 0.7) * duration_s)
+    begin_s = {"from the start": 0.0, "early": rng.uniform(0.0, 0.5)}.get(kind, rng.uniform(0.1, 0.7) * duration_s)
     begin = min(round(begin_s * case.rec.rate_hz), len(case.rec) - 1)
     for index in choose(rng, ((0,), (1,), (0, 1))):
         gyr, acc = signals(case.rec, index)
