@@ -35,7 +35,7 @@ class CommandLine(ProgramTest):
             self.assert_usage(["hinge", "a", "--window=" + value], "--window")
             self.assert_usage(["hinge", "a", "--max-bound=" + value], "--max-bound")
         self.assert_usage(["hinge", "a", "--max-bound=60"], "--max-bound")
-        for value in ("18", "21.5", "21", "10002", "1e9", "x", "-20"):
+        for value in ("19", "21.5", "10001", "1e9", "x", "-20"):
             self.assert_usage(["hinge", "a", "--engine=window", "--n-max=" + value], "--n-max")
         self.assert_usage(["hinge", "a", "--wrong"], "unrecognized option '--wrong'")
 

@@ -109,23 +109,27 @@ static void advance(jcal_hinge_scatter_t *scatter, float information, float dt_s
     }
 }
 
-/// Gradient of the sample's cost with respect to one axis; gyr and acc are weight times residual, with the sensor's
-/// sign.
+/// A sample's residuals times their weights, as one sensor sees them: sensor 2 enters both with the opposite sign.
+typedef struct {
+    float gyr;
+    float acc;
+    float bias_unit;  ///< Unit of the bias unknowns, rad/s.
+} pull_t;
+
+/// Gradient of the sample's cost with respect to one axis and its bias.
 ///
 /// With e = |u1 x j1|^2 - |u2 x j2|^2:  de/dj = -2 (u . j) u_across,  de/db = -2 u_across; for (25): de/dj = a.
 static void add_score(jcal_hinge_scatter_t *scatter, const jcal_hinge_axis_t *axis, const view_t *view, jcal_vec3_t acc,
-                      const float residuals[2], float bias_unit)
+                      const pull_t *pull)
 {
-    const float gyr = residuals[0];
-    const float of_acc = residuals[1];
     const jcal_vec3_t v = jcal_hinge_v(axis);
-    const float across_u = -2.0f * gyr * jcal_vec3_dot(view->across, axis->u);
-    const float across_v = -2.0f * gyr * jcal_vec3_dot(view->across, v);
-    scatter->fine[0] += (view->along * across_u) + (of_acc * jcal_vec3_dot(acc, axis->u));
-    scatter->fine[1] += (view->along * across_v) + (of_acc * jcal_vec3_dot(acc, v));
-    scatter->fine[2] += bias_unit * across_u;
-    scatter->fine[3] += bias_unit * across_v;
-    scatter->fine[4] += gyr * view->along * view->along;
+    const float across_u = -2.0f * pull->gyr * jcal_vec3_dot(view->across, axis->u);
+    const float across_v = -2.0f * pull->gyr * jcal_vec3_dot(view->across, v);
+    scatter->fine[0] += (view->along * across_u) + (pull->acc * jcal_vec3_dot(acc, axis->u));
+    scatter->fine[1] += (view->along * across_v) + (pull->acc * jcal_vec3_dot(acc, v));
+    scatter->fine[2] += pull->bias_unit * across_u;
+    scatter->fine[3] += pull->bias_unit * across_v;
+    scatter->fine[4] += pull->gyr * view->along * view->along;
 }
 
 /// The turn of the rate across the axis about the axis, times its square: what both sensors must see alike.
@@ -196,10 +200,10 @@ void jcal_hinge_evidence_add(jcal_hinge_evidence_t *self, const jcal_hinge_point
     const float acc_residual =
         jcal_vec3_dot(point->axis1.j, sample->a1) - jcal_vec3_dot(point->axis2.j, sample->a2) - acc_constant_m_s2;
     const float acc = sample->acc_weight * acc_residual;
-    const float residuals1[2] = {gyr, acc};
-    const float residuals2[2] = {-gyr, -acc};
-    add_score(&self->axis1, &point->axis1, &view1, sample->a1, residuals1, gyr_bias_rad_s);
-    add_score(&self->axis2, &point->axis2, &view2, sample->a2, residuals2, gyr_bias_rad_s);
+    const pull_t pull1 = {gyr, acc, gyr_bias_rad_s};
+    const pull_t pull2 = {-gyr, -acc, gyr_bias_rad_s};
+    add_score(&self->axis1, &point->axis1, &view1, sample->a1, &pull1);
+    add_score(&self->axis2, &point->axis2, &view2, sample->a2, &pull2);
     advance(&self->axis1, information_in(sample, sample->w1_2), sample->dt_s);
     advance(&self->axis2, information_in(sample, sample->w2_2), sample->dt_s);
     add_fit(self, &view1, &view2, sample);

@@ -18,7 +18,7 @@ static const struct argp_option OPTIONS[] = {
      "How to compute. stream (default): sums of moments, remembers everything, constant memory. window: selected "
      "samples in a buffer, as published by Olsson et al. 2020",
      0},
-    {"n-max", KEY_N_MAX, "N", 0, "Samples in the window engine's buffer, 20 to 10000 and even (default 500)", 0},
+    {"n-max", KEY_N_MAX, "N", 0, "Samples in the window engine's buffer, 20 to 10000 (default 500)", 0},
     {"window", KEY_WINDOW, "S", 0,
      "Memory in seconds for what drifts. Accepted for all joints; a hinge has nothing that drifts, so it changes "
      "nothing here. Not with --engine window, whose buffer counts samples (--n-max)",
@@ -97,7 +97,7 @@ static void check(struct argp_state *state, const parse_t *parse)
                    (double)(hinge->max_bound_rad / RAD_PER_DEG));
     }
     if (engine->kind == JCAL_ENGINE_WINDOW && jcal_hinge_window_config_check(&engine->config) != NULL) {
-        argp_error(state, "--n-max: %d is not an even number from 20 to 10000", (int)engine->config.n_max);
+        argp_error(state, "--n-max: %d is not a number from 20 to 10000", (int)engine->config.n_max);
     }
 }
 

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import native
-from .faults import CLASSES, Case
+from .faults import CLASSES, REPORTED, Case
 from .harness import Report, Settings, numbered, run_jobs
 
 TITLE = "Never ready"
+ALL = {**CLASSES, **REPORTED}
 QUICK_RUNS = 180
 LISTED = 60
 
@@ -27,11 +28,11 @@ class Outcome:
 
 
 def seed(kind: str, index: int) -> list[int]:
-    return [list(CLASSES).index(kind), index, 3534]
+    return [list(ALL).index(kind), index, 3534]
 
 
 def make_case(kind: str, index: int) -> Case:
-    return CLASSES[kind][0](np.random.default_rng(seed(kind, index)))
+    return ALL[kind][0](np.random.default_rng(seed(kind, index)))
 
 
 def wrongly_ready_s(track: native.Track, after_s: float) -> float:
@@ -55,7 +56,7 @@ def measure_case(job: tuple[str, int, tuple[str, ...]]) -> list[Outcome]:
 def make_jobs(settings: Settings) -> list[tuple]:
     total = sum(count for _, count in CLASSES.values())
     runs = settings.count(total, QUICK_RUNS)
-    counts = {kind: max(round(count * runs / total), 1) for kind, (_, count) in CLASSES.items()}
+    counts = {kind: max(round(count * runs / total), 1) for kind, (_, count) in ALL.items()}
     return [(kind, k, settings.engines) for kind, k in numbered(counts, settings.only)]
 
 
@@ -65,7 +66,9 @@ def measure(settings: Settings, report: Report) -> None:
     report.text("10 to 60 s each. `ready` must not be entered at any time; where a sensor freezes late, after motion that "
                 "may have made it ready, not later than 1 s after that. The classes are described in "
                 "tools/python/jointcal_tools/measure/faults.py; the seed of a run is its class and number, and "
-                "`measure.py never --only CLASS:NUMBER` makes it again.")
+                "`measure.py never --only CLASS:NUMBER` makes it again. The class mix_held is reported, not required: both "
+                "sensors come from joints whose axes were held still, so that each turns about one axis only, as on one "
+                "hinge.")
     rows = []
     for kind in dict.fromkeys(o.kind for o in outcomes):
         mine = {engine: [o for o in outcomes if o.kind == kind and o.engine == engine] for engine in settings.engines}
@@ -81,5 +84,5 @@ def measure(settings: Settings, report: Report) -> None:
         report.table(["run", "engine", "at, s", "made from"],
                      [[f"{o.kind}:{o.index}", o.engine, f"{o.ready_s:.2f}", o.source] for o in offenders[:LISTED]])
     for engine in settings.engines:
-        mine = [o for o in outcomes if o.engine == engine]
+        mine = [o for o in outcomes if o.engine == engine and o.kind in CLASSES]
         report.require_none(f"{engine}: ready", sum(np.isfinite(o.ready_s) for o in mine), len(mine))
