@@ -22,19 +22,27 @@ static bool on_sample(uint64_t t_us, jcal_imu_t thigh, jcal_imu_t shank)
     return result.status == JCAL_READY;
 }
 
+/* In place of a sensor: a segment that hangs from a tilting joint axis (its z) and turns about it. */
+static jcal_imu_t segment(float tilt, float tilt_rate, float turn, float turn_rate)
+{
+    const float g = 9.81f, s = sinf(turn), c = cosf(turn);
+    const jcal_imu_t imu = {{tilt_rate * c, -tilt_rate * s, turn_rate},
+                            {g * sinf(tilt) * s, g * sinf(tilt) * c, g * cosf(tilt)}};
+    return imu;
+}
+
 int main(void)
 {
     const jcal_hinge_config_t config = jcal_hinge_config_default();
     if (jcal_hinge_init(&hinge, &config) != JCAL_OK) {
         return 1;
     }
-    /* In place of sensors: a knee that bends about z while the leg sways, 50 Hz, at most one minute. */
     bool ready = false;
-    for (uint32_t k = 0; k < 3000 && !ready; k++) {
-        const float t = 0.02f * (float)k, sway = 0.3f * cosf(t), bend = 1.5f * cosf(3.0f * t);
-        const jcal_imu_t thigh = {{sway, 0.5f * sway, 0.0f}, {0.0f, 9.81f, 1.0f}};
-        const jcal_imu_t shank = {{sway, 0.5f * sway, bend}, {9.81f * sinf(t), 9.81f * cosf(t), 1.0f}};
+    for (uint32_t k = 0; k < 3000 && !ready; k++) { /* 50 Hz, at most one minute */
+        const float t = 0.02f * (float)k, tilt = 1.0f + sinf(t), tilt_rate = cosf(t);
+        const jcal_imu_t thigh = segment(tilt, tilt_rate, 0.4f * sinf(2.0f * t), 0.8f * cosf(2.0f * t));
+        const jcal_imu_t shank = segment(tilt, tilt_rate, 0.9f * sinf(3.0f * t), 2.7f * cosf(3.0f * t));
         ready = on_sample(20000u * (uint64_t)k, thigh, shank);
     }
-    return 0;
+    return ready ? 0 : 1;
 }
