@@ -205,7 +205,7 @@ void jcal_hinge_judge(jcal_hinge_t *self)
     jcal_hinge_bounds_t bounds = {JCAL_BOUND_UNKNOWN_RAD, JCAL_BOUND_UNKNOWN_RAD, 0.0f};
     jcal_hinge_lin_t lin;
     if (self->has_point) {
-        jcal_hinge_linearise(&self->moments, &self->cfg, &self->point, &lin);
+        jcal_hinge_linearise(&self->moments, &self->cfg, &self->point, JCAL_HINGE_UNKNOWNS, &lin);
     }
     if (!self->has_point || !jcal_hinge_bounds(self, &lin, &bounds)) {
         const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);

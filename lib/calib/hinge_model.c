@@ -58,42 +58,52 @@ void jcal_hinge_coefficients(const jcal_hinge_point_t *point, float f[JCAL_HINGE
         jcal_vec3_dot(point->axis1.bias, point->axis1.bias) - jcal_vec3_dot(point->axis2.bias, point->axis2.bias);
 }
 
-/// Column of df/d(axis) along the tangent t: d(I - j j') = -(j t' + t j'), and the bias stays across j: d(P b) = -j
-/// (t . b).
-static void axis_column(const jcal_hinge_axis_t *axis, jcal_vec3_t t, float sign, float products_out[6])
+/// One column of the derivative of f: zero but for the products and the rate of one sensor, and the constant.
+typedef struct {
+    float products[6];
+    float linear[3];
+    float one;
+} column_t;
+
+/// Column of df/d(axis) along the tangent t: d(I - j j') = -(j t' + t j'), and the bias stays across j:
+/// d(P b) = -j (t . b).
+static column_t axis_column(const jcal_hinge_axis_t *axis, jcal_vec3_t t, float sign)
 {
     const jcal_vec3_t j = axis->j;
-    products_out[0] = sign * (-2.0f * j.x * t.x);
-    products_out[1] = sign * (-2.0f * j.y * t.y);
-    products_out[2] = sign * (-2.0f * j.z * t.z);
-    products_out[3] = sign * (-2.0f * ((j.x * t.y) + (j.y * t.x)));
-    products_out[4] = sign * (-2.0f * ((j.x * t.z) + (j.z * t.x)));
-    products_out[5] = sign * (-2.0f * ((j.y * t.z) + (j.z * t.y)));
+    column_t column;
+    column.products[0] = sign * (-2.0f * j.x * t.x);
+    column.products[1] = sign * (-2.0f * j.y * t.y);
+    column.products[2] = sign * (-2.0f * j.z * t.z);
+    column.products[3] = sign * (-2.0f * ((j.x * t.y) + (j.y * t.x)));
+    column.products[4] = sign * (-2.0f * ((j.x * t.z) + (j.z * t.x)));
+    column.products[5] = sign * (-2.0f * ((j.y * t.z) + (j.z * t.y)));
+    store(j, 2.0f * sign * jcal_vec3_dot(t, axis->bias), column.linear);
+    column.one = 0.0f;
+    return column;
 }
 
-/// Fills the 19 x 8 derivative F of f; columns: axis1 u, v; axis2 u, v; bias1 u, v; bias2 u, v.
-static void derivative(const jcal_hinge_point_t *point, float bias_unit,
-                       float columns[JCAL_HINGE_UNKNOWNS][JCAL_HINGE_FEATURES])
+/// Column of df/d(bias) along the tangent t, for a bias counted in `unit`.
+static column_t bias_column(const jcal_hinge_axis_t *axis, jcal_vec3_t t, float sign, float unit)
 {
-    for (unsigned sensor = 0u; sensor < 2u; ++sensor) {
-        const jcal_hinge_axis_t *const axis = (sensor == 0u) ? &point->axis1 : &point->axis2;
-        const float sign = (sensor == 0u) ? 1.0f : -1.0f;
-        const unsigned z_products = (sensor == 0u) ? JCAL_HINGE_Z_W1W1 : JCAL_HINGE_Z_W2W2;
-        const unsigned z_linear = (sensor == 0u) ? JCAL_HINGE_Z_W1 : JCAL_HINGE_Z_W2;
-        const jcal_vec3_t tangent[2] = {axis->u, jcal_hinge_v(axis)};
-        for (unsigned k = 0u; k < 2u; ++k) {
-            const jcal_vec3_t t = tangent[k];
-            float *const of_axis = columns[(2u * sensor) + k];
-            float *const of_bias = columns[JCAL_HINGE_AXIS_UNKNOWNS + (2u * sensor) + k];
-            for (unsigned i = 0u; i < JCAL_HINGE_FEATURES; ++i) {
-                of_axis[i] = 0.0f;
-                of_bias[i] = 0.0f;
-            }
-            axis_column(axis, t, sign, &of_axis[z_products]);
-            store(axis->j, 2.0f * sign * jcal_vec3_dot(t, axis->bias), &of_axis[z_linear]);
-            store(t, -2.0f * sign * bias_unit, &of_bias[z_linear]);
-            of_bias[JCAL_HINGE_Z_ONE] = 2.0f * sign * bias_unit * jcal_vec3_dot(t, axis->bias);
-        }
+    column_t column = {{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f};
+    store(t, -2.0f * sign * unit, column.linear);
+    column.one = 2.0f * sign * unit * jcal_vec3_dot(t, axis->bias);
+    return column;
+}
+
+/// Sensor, 0 or 1, to which unknown r belongs, and whether it is a bias.
+#define SENSOR_OF(r) (((r) / 2u) % 2u)
+#define IS_BIAS(r) ((r) >= JCAL_HINGE_AXIS_UNKNOWNS)
+
+/// The first n columns of the derivative of f: axis1 u, v; axis2 u, v; bias1 u, v; bias2 u, v.
+static void derivative(const jcal_hinge_point_t *point, float bias_unit, unsigned n,
+                       column_t columns[JCAL_HINGE_UNKNOWNS])
+{
+    for (unsigned r = 0u; r < n; ++r) {
+        const jcal_hinge_axis_t *const axis = (SENSOR_OF(r) == 0u) ? &point->axis1 : &point->axis2;
+        const float sign = (SENSOR_OF(r) == 0u) ? 1.0f : -1.0f;
+        const jcal_vec3_t t = ((r % 2u) == 0u) ? axis->u : jcal_hinge_v(axis);
+        columns[r] = IS_BIAS(r) ? bias_column(axis, t, sign, bias_unit) : axis_column(axis, t, sign);
     }
 }
 
@@ -172,6 +182,33 @@ static void linearise_acc(const jcal_hinge_moments_t *moments, const jcal_hinge_
     }
 }
 
+/// mt (19) <- M times column r.
+static void times_column(const jcal_hinge_moments_t *moments, const column_t *column, unsigned r,
+                         float mt[JCAL_HINGE_FEATURES])
+{
+    for (unsigned i = 0u; i < JCAL_HINGE_FEATURES; ++i) {
+        mt[i] = 0.0f;
+    }
+    const size_t z_products = (SENSOR_OF(r) == 0u) ? JCAL_HINGE_Z_W1W1 : JCAL_HINGE_Z_W2W2;
+    const size_t z_linear = (SENSOR_OF(r) == 0u) ? JCAL_HINGE_Z_W1 : JCAL_HINGE_Z_W2;
+    if (!IS_BIAS(r)) {
+        jcal_sym_add_run(moments->gyr, JCAL_HINGE_FEATURES, z_products, 6u, column->products, mt);
+    }
+    jcal_sym_add_run(moments->gyr, JCAL_HINGE_FEATURES, z_linear, 3u, column->linear, mt);
+    if (IS_BIAS(r)) {
+        jcal_sym_add_run(moments->gyr, JCAL_HINGE_FEATURES, JCAL_HINGE_Z_ONE, 1u, &column->one, mt);
+    }
+}
+
+/// Column c times a vector (19).
+static float column_dot(const column_t *column, unsigned c, const float y[JCAL_HINGE_FEATURES])
+{
+    const float *const products = &y[(SENSOR_OF(c) == 0u) ? JCAL_HINGE_Z_W1W1 : JCAL_HINGE_Z_W2W2];
+    const float *const linear = &y[(SENSOR_OF(c) == 0u) ? JCAL_HINGE_Z_W1 : JCAL_HINGE_Z_W2];
+    const float sum = dot(column->linear, linear, 3u) + (column->one * y[JCAL_HINGE_Z_ONE]);
+    return IS_BIAS(c) ? sum : (sum + dot(column->products, products, 6u));
+}
+
 /// Biases are counted in units of their standard deviation, so their prior is the identity.
 static void add_bias_prior(float unit, const jcal_hinge_point_t *point, jcal_hinge_lin_t *out)
 {
@@ -196,25 +233,27 @@ static void split(float *a, float *b, unsigned n)
 }
 
 void jcal_hinge_linearise(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg,
-                          const jcal_hinge_point_t *point, jcal_hinge_lin_t *out)
+                          const jcal_hinge_point_t *point, unsigned n, jcal_hinge_lin_t *out)
 {
     float f[JCAL_HINGE_FEATURES];
     float mf[JCAL_HINGE_FEATURES];
-    float columns[JCAL_HINGE_UNKNOWNS][JCAL_HINGE_FEATURES];
+    column_t columns[JCAL_HINGE_UNKNOWNS];
     jcal_hinge_coefficients(point, f);
     jcal_sym_times(moments->gyr, JCAL_HINGE_FEATURES, f, mf);
     out->cost_gyr = dot(f, mf, JCAL_HINGE_FEATURES);
-    derivative(point, cfg->gyr_bias_rad_s, columns);
-    for (unsigned r = 0u; r < JCAL_HINGE_UNKNOWNS; ++r) {
+    derivative(point, cfg->gyr_bias_rad_s, n, columns);
+    for (unsigned r = 0u; r < n; ++r) {
         float mt[JCAL_HINGE_FEATURES];
-        jcal_sym_times(moments->gyr, JCAL_HINGE_FEATURES, columns[r], mt);
-        out->gradient[r] = dot(columns[r], mf, JCAL_HINGE_FEATURES);
+        times_column(moments, &columns[r], r, mt);
+        out->gradient[r] = column_dot(&columns[r], r, mf);
         for (unsigned c = 0u; c <= r; ++c) {
-            out->matrix[jcal_sym_at(r, c)] = dot(columns[c], mt, JCAL_HINGE_FEATURES);
+            out->matrix[jcal_sym_at(r, c)] = column_dot(&columns[c], c, mt);
         }
     }
     linearise_acc(moments, cfg, point, out);
-    add_bias_prior(cfg->gyr_bias_rad_s, point, out);
+    if (n > JCAL_HINGE_AXIS_UNKNOWNS) {
+        add_bias_prior(cfg->gyr_bias_rad_s, point, out);
+    }
 }
 
 /// (f' - f)' M (f' + f) for the two parts, so that nothing is lost when both costs are large and nearly equal.

@@ -47,7 +47,7 @@ static float group_scale(const float *matrix, size_t first, size_t last)
 /// none.
 static bool step(const jcal_hinge_lin_t *lin, size_t n, float *damping, float d[8], float *predicted)
 {
-    const float scales[2] = {group_scale(lin->matrix, 0u, 4u), group_scale(lin->matrix, 4u, 8u)};
+    const float scales[2] = {group_scale(lin->matrix, 0u, 4u), (n > 4u) ? group_scale(lin->matrix, 4u, 8u) : 0.0f};
     float gradient[JCAL_HINGE_UNKNOWNS];
     float matrix[36];
     float scaled[JCAL_HINGE_UNKNOWNS] = {0.0f};
@@ -84,7 +84,7 @@ static void descend(const jcal_hinge_t *self, size_t n, jcal_hinge_point_t *poin
     jcal_hinge_lin_t lin;
     float d[JCAL_HINGE_UNKNOWNS];
     float predicted;
-    jcal_hinge_linearise(&self->moments, &self->cfg, point, &lin);
+    jcal_hinge_linearise(&self->moments, &self->cfg, point, (unsigned)n, &lin);
     lengths[0] = STEP_MAX_RAD;
     lengths[1] = STEP_MAX_RAD;
     if (!step(&lin, n, damping, d, &predicted)) {

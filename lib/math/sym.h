@@ -56,15 +56,40 @@ static inline void jcal_sym_rank1(float *m, size_t n, const float *v, float weig
     }
 }
 
-/// out (n) <- m v, with m (n x n), v (n). `out` must not overlap `v` or `m`. Cost: n^2 multiply-adds.
+/// out (n) <- m v, with m (n x n), v (n). `out` must not overlap `v` or `m`.
+///
+/// One pass over the packed elements, each used for its row and for its column. Cost: n^2 multiply-adds.
 static inline void jcal_sym_times(const float *m, size_t n, const float *v, float *out)
 {
+    size_t k = 0u;
     for (size_t i = 0u; i < n; ++i) {
-        float sum = 0.0f;
-        for (size_t j = 0u; j < n; ++j) {
-            sum += m[jcal_sym_at(i, j)] * v[j];
+        float row = 0.0f;
+        for (size_t j = 0u; j < i; ++j) {
+            row += m[k] * v[j];
+            out[j] += m[k] * v[i];
+            ++k;
         }
-        out[i] = sum;
+        out[i] = row + (m[k] * v[i]);
+        ++k;
+    }
+}
+
+/// y (n) <- y + m v for a v (n) that is zero outside of its elements first .. first + count - 1, which are `run` (count).
+///
+/// Cost:     count n multiply-adds.
+static inline void jcal_sym_add_run(const float *m, size_t n, size_t first, size_t count, const float *run, float *y)
+{
+    for (size_t c = 0u; c < count; ++c) {
+        const size_t j = first + c;
+        const float *const row = &m[JCAL_SYM_SIZE(j)];
+        for (size_t i = 0u; i < j; ++i) {
+            y[i] += row[i] * run[c];
+        }
+        size_t k = JCAL_SYM_SIZE(j) + j;
+        for (size_t i = j; i < n; ++i) {
+            y[i] += m[k] * run[c];
+            k += i + 1u;
+        }
     }
 }
 
@@ -91,12 +116,14 @@ static inline float jcal_sym_quadratic(const float *m, size_t n, const float *v)
 static inline float jcal_sym_bilinear(const float *m, size_t n, const float *u, const float *v)
 {
     float sum = 0.0f;
+    size_t k = 0u;
     for (size_t i = 0u; i < n; ++i) {
-        float row = 0.0f;
-        for (size_t j = 0u; j < n; ++j) {
-            row += m[jcal_sym_at(i, j)] * v[j];
+        for (size_t j = 0u; j < i; ++j) {
+            sum += m[k] * ((u[i] * v[j]) + (u[j] * v[i]));
+            ++k;
         }
-        sum += u[i] * row;
+        sum += m[k] * u[i] * v[i];
+        ++k;
     }
     return sum;
 }
