@@ -41,9 +41,9 @@
 #define ACC_WEIGHT_MAX 2e4f
 
 /// One slice of work is paid for by this much time, so that the work per second does not depend on the rate.
-#define SLICE_S 0.005f
-#define SLICES_MAX 10u
-#define SLICES_PER_CYCLE 16u
+#define SLICE_S 0.01f
+#define SLICES_MAX 5u
+#define SLICES_PER_CYCLE 8u
 
 typedef char jcal_hinge_fits_its_budget[(sizeof(jcal_hinge_t) <= 2048u) ? 1 : -1];
 

@@ -44,7 +44,7 @@
 
 /// Gauss-Newton steps of the last length that may lie between the estimate and its minimum: the sum of a series of
 /// steps that shrink by a third each, as they do where the cost is of fourth order.
-#define STEPS_LEFT 2.5f
+#define STEPS_LEFT 1.5f
 
 /// Information below which a direction is open. The cost is in units of independent readings: 1 is one reading at 1
 /// rad.

@@ -16,7 +16,7 @@
 
 /// Integral of the squared difference of the rates, beyond what errors make, that shows that the joint moves, rad^2/s:
 /// half a second at 0.3 rad/s.
-#define EXCITATION_MIN 0.02f
+#define EXCITATION_MIN 0.03f
 
 /// The disagreement across the axis must be small beside the difference of the rates, or no hinge explains the data.
 #define MISFIT_SHARE 0.25f
@@ -40,7 +40,7 @@
 #define PLANAR_SHARE 0.02f
 
 /// Judgements in a row, one each 80 ms, that must agree before `ready`.
-#define AGREED_MIN 3u
+#define AGREED_MIN 2u
 
 /// How the two sign pairings compare.
 typedef struct {

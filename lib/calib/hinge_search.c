@@ -17,7 +17,7 @@
 #define EIGEN_STARTS 18u
 #define STARTS 19u
 /// Steps of a probe with the biases of the estimate, and then with biases of its own.
-#define PROBE_STEPS 6u
+#define PROBE_STEPS 5u
 #define REFINE_STEPS 2u
 
 /// A change of cost too small to matter, in units of one independent reading; rounding may make a good step look
