@@ -44,6 +44,7 @@
 #define SLICE_S 0.01f
 #define SLICES_MAX 5u
 #define SLICES_PER_CYCLE 8u
+#define SETTLED_ROUNDS 4u
 
 typedef char jcal_hinge_fits_its_budget[(sizeof(jcal_hinge_t) <= 2048u) ? 1 : -1];
 
@@ -191,10 +192,13 @@ static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     }
 }
 
-/// One slice of the cycle: 2 steps of the estimate, 5 slices of the global check, 1 judgement.
+/// One slice of the cycle: 2 steps of the estimate, 5 slices of the global check, 1 judgement. Once the starts have been tried
+/// a few times, every other cycle leaves the global check out: what is known changes slowly then.
 static void work(jcal_hinge_t *self)
 {
-    switch (self->slice) {
+    const bool settled = self->search.rounds >= SETTLED_ROUNDS;
+    const bool rests = settled && (self->slice >= SLICES_PER_CYCLE);
+    switch (self->slice % SLICES_PER_CYCLE) {
     case 0u:
     case SLICES_PER_CYCLE / 2u:
         jcal_hinge_track(self);
@@ -203,10 +207,12 @@ static void work(jcal_hinge_t *self)
         jcal_hinge_judge(self);
         break;
     default:
-        jcal_hinge_search(self);
+        if (!rests) {
+            jcal_hinge_search(self);
+        }
         break;
     }
-    self->slice = (uint8_t)((self->slice + 1u) % SLICES_PER_CYCLE);
+    self->slice = (uint8_t)((self->slice + 1u) % (2u * SLICES_PER_CYCLE));
 }
 
 void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)

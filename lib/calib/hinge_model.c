@@ -58,10 +58,13 @@ void jcal_hinge_coefficients(const jcal_hinge_point_t *point, float f[JCAL_HINGE
         jcal_vec3_dot(point->axis1.bias, point->axis1.bias) - jcal_vec3_dot(point->axis2.bias, point->axis2.bias);
 }
 
-/// One column of the derivative of f: zero but for the products and the rate of one sensor, and the constant.
+/// Features of one sensor: its 6 products and its rate.
+#define RUN 9u
+#define PRODUCTS 6u
+
+/// One column of the derivative of f: zero but for one sensor's features and the constant.
 typedef struct {
-    float products[6];
-    float linear[3];
+    float run[RUN];
     float one;
 } column_t;
 
@@ -71,13 +74,13 @@ static column_t axis_column(const jcal_hinge_axis_t *axis, jcal_vec3_t t, float 
 {
     const jcal_vec3_t j = axis->j;
     column_t column;
-    column.products[0] = sign * (-2.0f * j.x * t.x);
-    column.products[1] = sign * (-2.0f * j.y * t.y);
-    column.products[2] = sign * (-2.0f * j.z * t.z);
-    column.products[3] = sign * (-2.0f * ((j.x * t.y) + (j.y * t.x)));
-    column.products[4] = sign * (-2.0f * ((j.x * t.z) + (j.z * t.x)));
-    column.products[5] = sign * (-2.0f * ((j.y * t.z) + (j.z * t.y)));
-    store(j, 2.0f * sign * jcal_vec3_dot(t, axis->bias), column.linear);
+    column.run[0] = sign * (-2.0f * j.x * t.x);
+    column.run[1] = sign * (-2.0f * j.y * t.y);
+    column.run[2] = sign * (-2.0f * j.z * t.z);
+    column.run[3] = sign * (-2.0f * ((j.x * t.y) + (j.y * t.x)));
+    column.run[4] = sign * (-2.0f * ((j.x * t.z) + (j.z * t.x)));
+    column.run[5] = sign * (-2.0f * ((j.y * t.z) + (j.z * t.y)));
+    store(j, 2.0f * sign * jcal_vec3_dot(t, axis->bias), &column.run[PRODUCTS]);
     column.one = 0.0f;
     return column;
 }
@@ -85,8 +88,8 @@ static column_t axis_column(const jcal_hinge_axis_t *axis, jcal_vec3_t t, float 
 /// Column of df/d(bias) along the tangent t, for a bias counted in `unit`.
 static column_t bias_column(const jcal_hinge_axis_t *axis, jcal_vec3_t t, float sign, float unit)
 {
-    column_t column = {{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.0f};
-    store(t, -2.0f * sign * unit, column.linear);
+    column_t column = {{0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f}, 0.0f};
+    store(t, -2.0f * sign * unit, &column.run[PRODUCTS]);
     column.one = 2.0f * sign * unit * jcal_vec3_dot(t, axis->bias);
     return column;
 }
@@ -182,31 +185,36 @@ static void linearise_acc(const jcal_hinge_moments_t *moments, const jcal_hinge_
     }
 }
 
-/// mt (19) <- M times column r.
+/// Where the features of a sensor start.
+static size_t start_of(unsigned sensor)
+{
+    return (sensor == 0u) ? JCAL_HINGE_Z_W1W1 : JCAL_HINGE_Z_W2W2;
+}
+
+/// mt <- the elements of M times column r that columns 0 .. r need.
 static void times_column(const jcal_hinge_moments_t *moments, const column_t *column, unsigned r,
                          float mt[JCAL_HINGE_FEATURES])
 {
-    for (unsigned i = 0u; i < JCAL_HINGE_FEATURES; ++i) {
+    const size_t start = start_of(SENSOR_OF(r));
+    const size_t rows = IS_BIAS(r) ? JCAL_HINGE_FEATURES : (start + RUN);
+    for (size_t i = 0u; i < rows; ++i) {
         mt[i] = 0.0f;
     }
-    const size_t z_products = (SENSOR_OF(r) == 0u) ? JCAL_HINGE_Z_W1W1 : JCAL_HINGE_Z_W2W2;
-    const size_t z_linear = (SENSOR_OF(r) == 0u) ? JCAL_HINGE_Z_W1 : JCAL_HINGE_Z_W2;
-    if (!IS_BIAS(r)) {
-        jcal_sym_add_run(moments->gyr, JCAL_HINGE_FEATURES, z_products, 6u, column->products, mt);
-    }
-    jcal_sym_add_run(moments->gyr, JCAL_HINGE_FEATURES, z_linear, 3u, column->linear, mt);
     if (IS_BIAS(r)) {
-        jcal_sym_add_run(moments->gyr, JCAL_HINGE_FEATURES, JCAL_HINGE_Z_ONE, 1u, &column->one, mt);
+        jcal_sym_add_run(moments->gyr, rows, start + PRODUCTS, RUN - PRODUCTS, &column->run[PRODUCTS], mt);
+        jcal_sym_add_run(moments->gyr, rows, JCAL_HINGE_Z_ONE, 1u, &column->one, mt);
+    } else {
+        jcal_sym_add_run(moments->gyr, rows, start, RUN, column->run, mt);
     }
 }
 
 /// Column c times a vector (19).
 static float column_dot(const column_t *column, unsigned c, const float y[JCAL_HINGE_FEATURES])
 {
-    const float *const products = &y[(SENSOR_OF(c) == 0u) ? JCAL_HINGE_Z_W1W1 : JCAL_HINGE_Z_W2W2];
-    const float *const linear = &y[(SENSOR_OF(c) == 0u) ? JCAL_HINGE_Z_W1 : JCAL_HINGE_Z_W2];
-    const float sum = dot(column->linear, linear, 3u) + (column->one * y[JCAL_HINGE_Z_ONE]);
-    return IS_BIAS(c) ? sum : (sum + dot(column->products, products, 6u));
+    const float *const run = &y[start_of(SENSOR_OF(c))];
+    return IS_BIAS(c)
+               ? (dot(&column->run[PRODUCTS], &run[PRODUCTS], RUN - PRODUCTS) + (column->one * y[JCAL_HINGE_Z_ONE]))
+               : dot(column->run, run, RUN);
 }
 
 /// Biases are counted in units of their standard deviation, so their prior is the identity.
