@@ -23,9 +23,7 @@ printf '\n$ build/host/jointcal hinge %s --json --every 0.1 > build/demo/hinge.j
 build/host/jointcal hinge "$recording" --json --every 0.1 > build/demo/hinge.jsonl
 tail -n 1 build/demo/hinge.jsonl
 
-if [[ -e tools/plot.py ]]; then
-    python=$(python_with numpy matplotlib)
-    printf '\nDrawing axis error, bounds, status and excitation over time\n'
-    "$python" tools/plot.py build/demo/hinge.jsonl --recording "$recording" --out build/demo/hinge.png
-    echo "The plot is build/demo/hinge.png"
-fi
+python=$(python_with numpy matplotlib)
+printf '\nDrawing axis error, bounds, status and excitation over time\n'
+"$python" tools/plot.py "$recording" --jsonl build/demo/hinge.jsonl --truth "${recording%.csv}.json" -o build/demo/hinge.png
+echo "The plot is build/demo/hinge.png"

@@ -238,7 +238,7 @@ def main() -> int:
     except (OSError, ValueError, KeyError) as error:
         print(f"plot.py: {error}", file=sys.stderr)
         return 2
-    title = f"{args.recording.name}: hinge, {lines.engine} engine; {lines.status[-1]} after {lines.t_s[-1]:.0f} s"
+    title = f"{args.recording.name}: hinge, {lines.engine} engine; {lines.status[-1]} at the end"
     draw(rec, lines, truth, args.max_bound, title).savefig(args.out, dpi=130)
     return 0
 

@@ -51,4 +51,6 @@ for script in tools/make_golden.py tools/make_demo.py; do
         "$python" "$script" --check
     fi
 done
+step "Measurements, a short run"
+"$python" tools/measure.py all --quick --no-qmt
 step "All steps passed"

@@ -36,6 +36,9 @@
 #define RIVAL_RATIO_MIN 1.5f
 #define INFLATION_MIN 0.3f
 
+/// Entering `ready` takes bounds below this share of the limit, staying there the limit itself.
+#define ENTER_SHARE 0.98f
+
 /// Motion counts as planar if the power of the rate across the axis is below this share of that along it: 8 deg.
 #define PLANAR_SHARE 0.02f
 
@@ -155,7 +158,9 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
     if (!fits(&self->evidence)) {
         return JCAL_REASON_DOES_NOT_FIT;
     }
-    if (!(jcal_max(bounds->bound1_rad, bounds->bound2_rad) <= self->cfg.max_bound_rad)) {
+    const float limit_rad = (self->verdict.status == (uint8_t)JCAL_READY) ? self->cfg.max_bound_rad
+                                                                          : (ENTER_SHARE * self->cfg.max_bound_rad);
+    if (!(jcal_max(bounds->bound1_rad, bounds->bound2_rad) <= limit_rad)) {
         return JCAL_REASON_UNCERTAIN;
     }
     const bool hinted = self->cfg.sign_hint != JCAL_SIGN_UNKNOWN;

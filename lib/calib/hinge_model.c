@@ -200,11 +200,14 @@ static void times_column(const jcal_hinge_moments_t *moments, const column_t *co
     for (size_t i = 0u; i < rows; ++i) {
         mt[i] = 0.0f;
     }
+    const jcal_sym_run_t whole = {start, RUN, column->run};
+    const jcal_sym_run_t linear = {start + PRODUCTS, RUN - PRODUCTS, &column->run[PRODUCTS]};
+    const jcal_sym_run_t one = {JCAL_HINGE_Z_ONE, 1u, &column->one};
     if (IS_BIAS(r)) {
-        jcal_sym_add_run(moments->gyr, rows, start + PRODUCTS, RUN - PRODUCTS, &column->run[PRODUCTS], mt);
-        jcal_sym_add_run(moments->gyr, rows, JCAL_HINGE_Z_ONE, 1u, &column->one, mt);
+        jcal_sym_add_run(moments->gyr, rows, &linear, mt);
+        jcal_sym_add_run(moments->gyr, rows, &one, mt);
     } else {
-        jcal_sym_add_run(moments->gyr, rows, start, RUN, column->run, mt);
+        jcal_sym_add_run(moments->gyr, rows, &whole, mt);
     }
 }
 

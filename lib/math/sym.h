@@ -74,20 +74,27 @@ static inline void jcal_sym_times(const float *m, size_t n, const float *v, floa
     }
 }
 
-/// y (n) <- y + m v for a v (n) that is zero outside of its elements first .. first + count - 1, which are `run` (count).
+/// A vector that is zero outside of its elements first .. first + count - 1.
+typedef struct {
+    size_t first;
+    size_t count;
+    const float *values;  ///< (count)
+} jcal_sym_run_t;
+
+/// y (n) <- y + m v, with m (n x n) and v (n) given by its run.
 ///
 /// Cost:     count n multiply-adds.
-static inline void jcal_sym_add_run(const float *m, size_t n, size_t first, size_t count, const float *run, float *y)
+static inline void jcal_sym_add_run(const float *m, size_t n, const jcal_sym_run_t *run, float *y)
 {
-    for (size_t c = 0u; c < count; ++c) {
-        const size_t j = first + c;
+    for (size_t c = 0u; c < run->count; ++c) {
+        const size_t j = run->first + c;
         const float *const row = &m[JCAL_SYM_SIZE(j)];
         for (size_t i = 0u; i < j; ++i) {
-            y[i] += row[i] * run[c];
+            y[i] += row[i] * run->values[c];
         }
         size_t k = JCAL_SYM_SIZE(j) + j;
         for (size_t i = j; i < n; ++i) {
-            y[i] += m[k] * run[c];
+            y[i] += m[k] * run->values[c];
             k += i + 1u;
         }
     }
