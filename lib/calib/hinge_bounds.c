@@ -20,7 +20,7 @@
 /// Assumed ratio of the scatter over coarse blocks to that over fine ones: residuals are similar over some fine blocks.
 #define PRIOR_CORRELATION 1.5f
 /// Small-sample factor 1 + this / blocks.
-#define SMALL_SAMPLE 2.0f
+#define SMALL_SAMPLE 4.0f
 
 /// Noise power per direction across the axis is the mean of (|q1| - |q2|)^2 times a factor between 1/2, where the
 /// rates q across the axis are large, and 1 / 0.86, where they are nothing but noise (there the mean square of q is

@@ -43,7 +43,7 @@
 #define PLANAR_SHARE 0.02f
 
 /// Judgements in a row, one each 80 ms, that must agree before `ready`.
-#define AGREED_MIN 2u
+#define AGREED_MIN 4u
 
 /// How the two sign pairings compare.
 typedef struct {

@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Write the golden vectors of the hinge, host_tests/golden/hinge.h, from the float64 reference.
+
+    python3 tools/make_golden.py            write the file
+    python3 tools/make_golden.py --check    exit 1 if the numbers in the repository differ
+
+Another version of numpy may round differently, so --check compares numbers with a
+tolerance, and everything between them exactly.
+
+The numbers know nothing of the C code: samples come from the simulator, the costs of
+the stream form and of OLS20 from jointcal_tools.ols20 and from the formulas of
+docs/METHOD.md section 2, written out below.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from pathlib import Path
+
+import numpy as np
+
+TOOLS = Path(__file__).resolve().parent
+sys.path.insert(0, str(TOOLS / "python"))
+
+from jointcal_tools import ols20  # noqa: E402
+from jointcal_tools.simulate import HingeSpec, simulate_hinge  # noqa: E402
+
+GOLDEN = TOOLS.parent / "host_tests" / "golden" / "hinge.h"
+SEED = 42
+SAMPLES = 40
+POINTS = 6
+RATE_HZ = 50.0
+GYR_NOISE_RAD_S = 0.03  # fields of jcal_hinge_config_t with their defaults
+ACC_BIAS_M_S2 = 0.5
+ACC_WEIGHT = 0.25  # one number for all samples: the schedule of that weight is not part of the model
+UNIT_S = 0.05  # docs/METHOD.md section 2: 50 ms count as one reading, eps is 0.05 (rad/s)^2
+RATE_EPS = 0.05
+TOLERANCE = 1e-6  # relative to the largest magnitude of the table: one rounding to float32 may differ
+NUMBER = re.compile(r"-?\d+\.\d*(?:e[-+]?\d+)?")
+
+
+def float32(values: np.ndarray) -> np.ndarray:
+    """The float64 numbers that the C test will see after its own conversion."""
+    return np.asarray(values, np.float32).astype(float)
+
+
+def make_samples() -> np.ndarray:
+    """(SAMPLES, 12): gyr1, acc1, gyr2, acc2 of a lively simulated hinge, one sample each 0.2 s."""
+    rec = simulate_hinge(HingeSpec(motions=(("7", 10.0),), rate_hz=RATE_HZ, seed=SEED, soft_tissue_deg=0.5,
+                                   acc_bias=0.2, gyr_bias_deg_s=0.5))
+    rows = np.hstack([rec.gyr1, rec.acc1, rec.gyr2, rec.acc2])[::10][:SAMPLES]
+    assert len(rows) == SAMPLES
+    return float32(rows)
+
+
+def make_axes(rng: np.random.Generator) -> np.ndarray:
+    """(POINTS, 6): pairs of unit axes."""
+    pairs = rng.standard_normal((POINTS, 2, 3))
+    return float32((pairs / np.linalg.norm(pairs, axis=2, keepdims=True)).reshape(POINTS, 6))
+
+
+def stream_costs(problem: ols20.Problem, axes: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Both parts of the cost from moments: 78 of the gyroscopes, 21 of the accelerometers, c eliminated by hand."""
+    # ols20 weights with 1 / (|w1|^2 + |w2|^2 + eps); the engine counts readings of UNIT_S against the noise.
+    scale = 1.0 / RATE_HZ / UNIT_S / GYR_NOISE_RAD_S**2
+    moments = ols20.stream_moments(problem)
+    gyr_only = moments._replace(acc=np.zeros((6, 6)))
+    gyr = [scale * ols20.stream_cost(gyr_only, j[:3], j[3:], w0=1.0) for j in axes]
+    a = np.hstack([problem.acc1, -problem.acc2])
+    sums, prior = ACC_WEIGHT * a.sum(axis=0), 1.0 / (2.0 * ACC_BIAS_M_S2**2)
+    reduced = ACC_WEIGHT * moments.acc - np.outer(sums, sums) / (ACC_WEIGHT * len(a) + prior)
+    return np.array(gyr), np.array([j @ reduced @ j for j in axes])
+
+
+def ols20_rows(problem: ols20.Problem, x: np.ndarray) -> np.ndarray:
+    """(SAMPLES, 10): unweighted e_w and its 4 derivatives, then e_a and its 4, by spherical angles."""
+    e, jacobian = ols20.residuals_and_jacobian(problem._replace(w0=1.0), x)
+    return np.hstack([part for rows in (slice(None, SAMPLES), slice(SAMPLES, None))
+                      for part in (e[rows, None], jacobian[rows])])
+
+
+def table(name: str, comment: str, values: np.ndarray, kind: str = "double") -> str:
+    """A C array; floats with 9 significant digits, doubles with 15."""
+    values = np.atleast_2d(values)
+    digits = 8 if kind == "float" else 14
+    suffix = "f" if kind == "float" else ""
+    rows = []
+    for row in values:
+        cells = [f"{value:.{digits}e}{suffix}" for value in row]
+        lines = [", ".join(cells[k: k + 4]) for k in range(0, len(cells), 4)]
+        rows.append("    {" + (",\n     ".join(lines)) + "},")
+    shape = f"[{values.shape[0]}][{values.shape[1]}]"
+    return f"/// {comment}\nstatic const {kind} {name}{shape} = {{\n" + "\n".join(rows) + "\n};\n"
+
+
+def make_header() -> str:
+    rng = np.random.default_rng(SEED)
+    samples, axes = make_samples(), make_axes(rng)
+    gyr1, acc1, gyr2, acc2 = (samples[:, k: k + 3] for k in (0, 3, 6, 9))
+    problem = ols20.Problem(gyr1, gyr2, acc1, acc2, squared=True, eps=RATE_EPS)
+    gyr_cost, acc_cost = stream_costs(problem, axes)
+    x = ols20.angles(axes[0, :3], axes[0, 3:])
+    rows = ols20_rows(problem._replace(squared=False), x)
+    d = np.hstack([ols20.axis_jacobian(*x[:2]), ols20.axis_jacobian(*x[2:])]).T
+    tables = [
+        table("golden_samples", "gyr1, acc1, gyr2, acc2; rad/s and m/s^2.", samples, "float"),
+        table("golden_axes", "j1, j2 of the points at which costs are given.", axes, "float"),
+        table("golden_costs", "Gyroscope part and accelerometer part of the stream cost at each point.",
+              np.stack([gyr_cost, acc_cost], axis=1)),
+        table("golden_directions", "Derivatives of j1 by theta_1, phi_1 and of j2 by theta_2, phi_2 at the first "
+              "point, (41).", d),
+        table("golden_rows", "At the first point: e_w of (24), its derivatives (31), e_a of (25), its derivatives; "
+              "without weights.", rows),
+    ]
+    return f"""/* SPDX-License-Identifier: MIT */
+/// @file
+/// Golden vectors of the hinge in float64, generated: do not edit. Compared by unit/test_golden_hinge.c.
+///
+/// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
+#ifndef GOLDEN_HINGE_H
+#define GOLDEN_HINGE_H
+
+/* clang-format off */
+#define GOLDEN_SAMPLES {SAMPLES}
+#define GOLDEN_POINTS {POINTS}
+#define GOLDEN_DT_S {1.0 / RATE_HZ:.2f}f
+#define GOLDEN_GYR_NOISE_RAD_S {GYR_NOISE_RAD_S:.2f}f
+#define GOLDEN_ACC_BIAS_M_S2 {ACC_BIAS_M_S2:.1f}f
+#define GOLDEN_ACC_WEIGHT {ACC_WEIGHT:.2f}f
+
+""" + "\n".join(tables) + """/* clang-format on */
+
+#endif /* GOLDEN_HINGE_H */
+"""
+
+
+def differences(old: str, new: str) -> list[str]:
+    """What differs between two files beyond rounding, block by block."""
+    def body(text: str) -> str:
+        return re.sub(r"numpy [\w.+]+", "numpy", text)
+    problems = []
+    old_blocks, new_blocks = (body(text).split("/// ") for text in (old, new))
+    if len(old_blocks) != len(new_blocks):
+        return ["other tables"]
+    for old_block, new_block in zip(old_blocks, new_blocks, strict=True):
+        title = new_block.split("\n", 1)[0]
+        if NUMBER.sub("#", old_block) != NUMBER.sub("#", new_block):
+            problems.append(f"{title}: other text or shape")
+            continue
+        a, b = (np.array([float(n) for n in NUMBER.findall(block)]) for block in (old_block, new_block))
+        if len(a) and not (np.abs(a - b).max() <= TOLERANCE * np.abs(b).max()):
+            problems.append(f"{title}: differs by {np.abs(a - b).max():.3g}")
+    return problems
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="compare instead of writing")
+    header = make_header()
+    if not parser.parse_args().check:
+        GOLDEN.parent.mkdir(exist_ok=True)
+        GOLDEN.write_text(header, newline="\n")
+        return 0
+    problems = differences(GOLDEN.read_text(), header) if GOLDEN.is_file() else ["no such file"]
+    for problem in problems:
+        print(f"host_tests/golden/hinge.h differs from what tools/make_golden.py writes: {problem}", file=sys.stderr)
+    return 1 if problems else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
