@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Builds and runs the fuzzers under address and undefined behaviour sanitizers: tools/fuzz.sh [RUNS [TARGET...]]
 #
-# RUNS executions of the reader (default 20000) and a tenth as many of push, each of which pushes up to 150 samples into both
-# engines. Inputs that reach new code are kept in
-# build/fuzz; host_tests/fuzz/corpus is where every run starts. tools/fuzz.sh merge copies what is worth keeping there.
+# RUNS executions of the reader (default 20000) and a hundredth as many of push, each of which pushes up to 50 samples into
+# both engines. Inputs that reach new code are kept in build/fuzz; host_tests/fuzz/corpus is where every run starts. tools/fuzz.sh merge copies what is worth keeping there.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source tools/packages.sh
@@ -33,10 +32,14 @@ for target in "${targets[@]}"; do
         continue
     fi
     count=$runs
-    [[ $target == push ]] && count=$((runs / 10))
+    length=8192
+    if [[ $target == push ]]; then
+        count=$((runs / 100))
+        length=2604
+    fi
     # The fixed seed makes a short run the same every time.
     echo "fuzz_$target: $count runs (log: $out/$target.log)"
-    if ! "$out/fuzz_$target" -runs="$count" -seed=1 -max_len=8192 -timeout=20 -print_final_stats=1 \
+    if ! "$out/fuzz_$target" -runs="$count" -seed=1 -max_len="$length" -timeout=20 -print_final_stats=1 \
         -dict=host_tests/fuzz/reader.dict -artifact_prefix="$out/" "$out/$target" "$corpus" 2> "$out/$target.log"; then
         tail -n 40 "$out/$target.log" >&2
         exit 1
