@@ -101,8 +101,13 @@ static inline void add_to_moments(const dsample_t *s, jcal_hinge_moments_t *mome
     float z[JCAL_HINGE_FEATURES];
     jcal_hinge_features(dget(s->w[0]), dget(s->w[1]), z);
     jcal_sym_rank1(moments->gyr, JCAL_HINGE_FEATURES, z, (float)s->gyr_weight);
-    const float y[7] = {(float)s->a[0][0],  (float)s->a[0][1],  (float)s->a[0][2], -(float)s->a[1][0],
-                        -(float)s->a[1][1], -(float)s->a[1][2], 1.0f};
+    const float y[7] = {(float)s->a[0][0],
+                        (float)s->a[0][1],
+                        (float)s->a[0][2],
+                        -(float)s->a[1][0],
+                        -(float)s->a[1][1],
+                        -(float)s->a[1][2],
+                        1.0f};
     jcal_sym_rank1(moments->acc, 7u, y, (float)s->acc_weight);
 }
 

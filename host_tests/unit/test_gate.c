@@ -130,8 +130,8 @@ static void one_component_that_moves_is_enough_not_to_be_repeated(void)
         jcal_pair_t next = pair;
         now_us += STEP_US;
         next.t_us = now_us;
-        next.imu1.gyr_rad_s.z = 0.001f * (float)field;   /* sensor 1 and 2 move in one component each */
-        *component(&next, field) -= 0.003f;              /* or in two */
+        next.imu1.gyr_rad_s.z = 0.001f * (float)field; /* sensor 1 and 2 move in one component each */
+        *component(&next, field) -= 0.003f;            /* or in two */
         *component(&next, (field + 6) % 12) -= 0.003f;
         TEST_ASSERT_EQUAL_INT(JCAL_REJECT_NONE, check(&next));
         pair = next;

@@ -47,10 +47,10 @@ void setUp(void)
     /* A little beside the truth, so that residuals have a mean too. */
     point.axis1.bias = jcal_vec3_scale(jcal_rng_unit(&rng), 0.05f);
     point.axis2.bias = jcal_vec3_scale(jcal_rng_unit(&rng), 0.05f);
-    jcal_hinge_axis_set(&point.axis1, jcal_vec3_normalise(jcal_vec3_add(
-                                          motion_axis(&motion, 0), jcal_vec3_scale(jcal_rng_unit(&rng), 0.1f))));
-    jcal_hinge_axis_set(&point.axis2, jcal_vec3_normalise(jcal_vec3_add(
-                                          motion_axis(&motion, 1), jcal_vec3_scale(jcal_rng_unit(&rng), 0.1f))));
+    jcal_hinge_axis_set(&point.axis1, jcal_vec3_normalise(jcal_vec3_add(motion_axis(&motion, 0),
+                                                                        jcal_vec3_scale(jcal_rng_unit(&rng), 0.1f))));
+    jcal_hinge_axis_set(&point.axis2, jcal_vec3_normalise(jcal_vec3_add(motion_axis(&motion, 1),
+                                                                        jcal_vec3_scale(jcal_rng_unit(&rng), 0.1f))));
     evidence.before_s = 1.0f;
     double t = 0.0;
     for (uint32_t k = 0; k < SAMPLES; ++k) {
@@ -338,8 +338,8 @@ static void an_axis_that_moves_far_begins_its_sums_anew_and_the_other_keeps_them
             jcal_hinge_point_t moved = point;
             jcal_hinge_axis_t *const axis = (sensor == 0) ? &moved.axis1 : &moved.axis2;
             const float rad = degrees[i] * 0.0174532925f;
-            jcal_hinge_axis_set(axis, jcal_vec3_add(jcal_vec3_scale(axis->j, cosf(rad)),
-                                                    jcal_vec3_scale(axis->u, sinf(rad))));
+            jcal_hinge_axis_set(
+                axis, jcal_vec3_add(jcal_vec3_scale(axis->j, cosf(rad)), jcal_vec3_scale(axis->u, sinf(rad))));
             evidence = before;
             jcal_hinge_evidence_follow(&evidence, &moved, false);
             const bool far = i > 0;
@@ -361,17 +361,52 @@ static void halving_halves_every_sum_over_all_samples(void)
     add_all(SAMPLES);
     const jcal_hinge_evidence_t b = evidence;
     jcal_hinge_evidence_halve(&evidence);
-    const float before[] = {b.fit_time_s, b.across_error2, b.across_rate2, b.difference2, b.noise_sum, b.noise_weight,
-                            b.pair_acc, b.pair_acc2, b.turn_same, b.turn_other, b.turn_time_s, b.excitation,
-                            b.axis1.information, b.axis1.information2, b.axis1.information_all, b.axis1.second,
-                            b.axis1.fine_second, b.axis1.time_s, b.axis2.scatter[9], b.axis2.fine_scatter[9],
-                            b.axis2.scatter[0], b.axis2.fine_scatter[0], b.axis2.information_all};
+    const float before[] = {b.fit_time_s,
+                            b.across_error2,
+                            b.across_rate2,
+                            b.difference2,
+                            b.noise_sum,
+                            b.noise_weight,
+                            b.pair_acc,
+                            b.pair_acc2,
+                            b.turn_same,
+                            b.turn_other,
+                            b.turn_time_s,
+                            b.excitation,
+                            b.axis1.information,
+                            b.axis1.information2,
+                            b.axis1.information_all,
+                            b.axis1.second,
+                            b.axis1.fine_second,
+                            b.axis1.time_s,
+                            b.axis2.scatter[9],
+                            b.axis2.fine_scatter[9],
+                            b.axis2.scatter[0],
+                            b.axis2.fine_scatter[0],
+                            b.axis2.information_all};
     const jcal_hinge_evidence_t *const e = &evidence;
-    const float after[] = {e->fit_time_s, e->across_error2, e->across_rate2, e->difference2, e->noise_sum,
-                           e->noise_weight, e->pair_acc, e->pair_acc2, e->turn_same, e->turn_other, e->turn_time_s,
-                           e->excitation, e->axis1.information, e->axis1.information2, e->axis1.information_all,
-                           e->axis1.second, e->axis1.fine_second, e->axis1.time_s, e->axis2.scatter[9],
-                           e->axis2.fine_scatter[9], e->axis2.scatter[0], e->axis2.fine_scatter[0],
+    const float after[] = {e->fit_time_s,
+                           e->across_error2,
+                           e->across_rate2,
+                           e->difference2,
+                           e->noise_sum,
+                           e->noise_weight,
+                           e->pair_acc,
+                           e->pair_acc2,
+                           e->turn_same,
+                           e->turn_other,
+                           e->turn_time_s,
+                           e->excitation,
+                           e->axis1.information,
+                           e->axis1.information2,
+                           e->axis1.information_all,
+                           e->axis1.second,
+                           e->axis1.fine_second,
+                           e->axis1.time_s,
+                           e->axis2.scatter[9],
+                           e->axis2.fine_scatter[9],
+                           e->axis2.scatter[0],
+                           e->axis2.fine_scatter[0],
                            e->axis2.information_all};
     for (size_t i = 0; i < sizeof before / sizeof before[0]; ++i) {
         TEST_ASSERT_TRUE(before[i] > 0.0f);

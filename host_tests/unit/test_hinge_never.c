@@ -182,8 +182,7 @@ static jcal_pair_t turned_copy(const motion_t *motion, uint32_t k)
     const float x = 0.01f * (float)motion_noise(&state);
     const float y = 0.01f * (float)motion_noise(&state);
     const float z = 0.01f * (float)motion_noise(&state);
-    pair.imu2.gyr_rad_s =
-        jcal_vec3_add(jcal_quat_rotate(motion->q_s2_b, pair.imu1.gyr_rad_s), jcal_vec3(x, y, z));
+    pair.imu2.gyr_rad_s = jcal_vec3_add(jcal_quat_rotate(motion->q_s2_b, pair.imu1.gyr_rad_s), jcal_vec3(x, y, z));
     pair.imu2.acc_m_s2 = jcal_vec3_add(jcal_quat_rotate(motion->q_s2_b, pair.imu1.acc_m_s2), jcal_vec3(y, z, x));
     return pair;
 }

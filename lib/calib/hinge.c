@@ -192,8 +192,8 @@ static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     }
 }
 
-/// One slice of the cycle: 2 steps of the estimate, 5 slices of the global check, 1 judgement. Once the starts have been tried
-/// a few times, every other cycle leaves the global check out: what is known changes slowly then.
+/// One slice of the cycle: 2 steps of the estimate, 5 slices of the global check, 1 judgement. Once the starts have
+/// been tried a few times, every other cycle leaves the global check out: what is known changes slowly then.
 static void work(jcal_hinge_t *self)
 {
     const bool settled = self->search.rounds >= SETTLED_ROUNDS;

@@ -171,8 +171,8 @@ static float scatter_ratio(const jcal_hinge_lin_t *lin, const float *scatter, un
     return 0.5f * ((d * g00) - (2.0f * b * g01) + (a * g11)) / determinant;
 }
 
-/// Squared bound from both orders. The first order holds as long as a tilt by the bound changes the rate across the axis by
-/// less than a share of what it is; beyond that its gradient turns round, and the worse of both counts.
+/// Squared bound from both orders. The first order holds as long as a tilt by the bound changes the rate across the
+/// axis by less than a share of what it is; beyond that its gradient turns round, and the worse of both counts.
 static float combine(float first_order, float second_order, const power_t *own)
 {
     const float across2 = own->all2 - own->along2;

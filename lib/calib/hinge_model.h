@@ -18,8 +18,8 @@
 #define JCAL_HINGE_AXIS_UNKNOWNS 4
 #define JCAL_HINGE_UNKNOWNS 8
 
-/// Where the features of one kind start in z: 6 products of w1, w1, 6 products of w2, w2, 1. What belongs to one sensor stands
-/// together, so that a derivative with respect to its axis is one run of 9.
+/// Where the features of one kind start in z: 6 products of w1, w1, 6 products of w2, w2, 1. What belongs to one
+/// sensor stands together, so that a derivative with respect to its axis is one run of 9.
 #define JCAL_HINGE_Z_W1W1 0
 #define JCAL_HINGE_Z_W1 6
 #define JCAL_HINGE_Z_W2W2 9
