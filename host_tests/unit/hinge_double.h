@@ -45,7 +45,7 @@ static inline jcal_vec3_t dget(const double v[3])
 
 static inline dpoint_t dpoint(const jcal_hinge_point_t *point)
 {
-    dpoint_t p;
+    dpoint_t p = {0};
     dset(point->axis1.j, p.j[0]);
     dset(point->axis2.j, p.j[1]);
     dset(point->axis1.bias, p.b[0]);

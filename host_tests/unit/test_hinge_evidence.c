@@ -82,7 +82,7 @@ static void assert_sum(double expected, double size, float actual)
 
 static dsample_t dsample(const jcal_hinge_sample_t *s)
 {
-    dsample_t d;
+    dsample_t d = {0};
     dset(s->w1, d.w[0]);
     dset(s->w2, d.w[1]);
     dset(s->a1, d.a[0]);
@@ -332,7 +332,7 @@ static void an_axis_that_moves_far_begins_its_sums_anew_and_the_other_keeps_them
     jcal_hinge_evidence_follow(&evidence, &point, true);
     add_all(SAMPLES);
     const jcal_hinge_evidence_t before = evidence;
-    const float degrees[3] = {14.8f, 15.2f, 180.0f}; /* the limit is 15 deg */
+    const float degrees[3] = {14.0f, 21.0f, 180.0f};
     for (int i = 0; i < 3; ++i) {
         for (int sensor = 0; sensor < 2; ++sensor) {
             jcal_hinge_point_t moved = point;

@@ -128,6 +128,31 @@ static void congruence_with_a_rectangular_matrix_agrees_with_plain_sums(void)
     }
 }
 
+static void a_run_times_the_matrix_is_added_to_what_is_there(void)
+{
+    float m[JCAL_SYM_SIZE(N)];
+    float v[N];
+    fill(m, JCAL_SYM_SIZE(N), 9);
+    fill(v, N, 10);
+    for (size_t first = 0; first < N; ++first) {
+        for (size_t count = 0; first + count <= N; ++count) {
+            float y[N];
+            fill(y, N, 11);
+            float before[N];
+            fill(before, N, 11);
+            const jcal_sym_run_t run = {first, count, &v[first]};
+            jcal_sym_add_run(m, N, &run, y);
+            for (size_t i = 0; i < N; ++i) {
+                double sum = (double)before[i];
+                for (size_t j = first; j < first + count; ++j) {
+                    sum += (double)m[jcal_sym_at(i, j)] * (double)v[j];
+                }
+                TEST_ASSERT_FLOAT_WITHIN(2e-6f, (float)sum, y[i]);
+            }
+        }
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -137,5 +162,6 @@ int main(void)
     RUN_TEST(scale_multiplies_every_element);
     RUN_TEST(product_quadratic_and_bilinear_form_agree_with_plain_sums);
     RUN_TEST(congruence_with_a_rectangular_matrix_agrees_with_plain_sums);
+    RUN_TEST(a_run_times_the_matrix_is_added_to_what_is_there);
     return UNITY_END();
 }

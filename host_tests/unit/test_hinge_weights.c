@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Tests of lib/calib/hinge.c: how much each sample counts, docs/METHOD.md section 2, and how much work it pays for.
+#include "calib/hinge_stream.h"
+#include "hinge_motion.h"
+#include "math/sym.h"
+#include "unity.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { SAMPLES = 200 };
+
+static const double SUM_TOL = 1e-5; /* 200 float terms of one sign */
+
+static jcal_hinge_t engine;
+
+void setUp(void)
+{
+    jcal_hinge_config_t config = jcal_hinge_config_default();
+    config.lever_arm_m = 2.0f; /* beside the noise, so that both terms count */
+    config.acc_noise_m_s2 = 0.7f;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_init(&engine, &config));
+}
+
+void tearDown(void)
+{
+}
+
+static double square(jcal_vec3_t a, jcal_vec3_t b)
+{
+    const double x = (double)a.x - (double)b.x;
+    const double y = (double)a.y - (double)b.y;
+    const double z = (double)a.z - (double)b.z;
+    return (x * x) + (y * y) + (z * z);
+}
+
+static void the_weight_of_a_specific_force_falls_with_both_rates_and_while_a_pose_lasts(void)
+{
+    const motion_t motion = motion_lively(5);
+    const double dt = 0.02;
+    const jcal_vec3_t zero = {0.0f, 0.0f, 0.0f};
+    jcal_vec3_t pose1 = zero;
+    jcal_vec3_t pose2 = zero;
+    double product = 0.0;
+    double dwell = 0.0;
+    double expected = 0.0;
+    int poses = 0;
+    for (uint32_t k = 0; k <= SAMPLES; ++k) {
+        const jcal_pair_t p = motion_sample(&motion, k);
+        jcal_hinge_consume(&engine, &p);
+        if (k == 0u) {
+            continue; /* stands for no time */
+        }
+        /* First-order low-pass of 0.2 s of |w1| |w2|, which bounds what (17) of OLS20 leaves out, per metre. */
+        const double rates = sqrt(square(p.imu1.gyr_rad_s, zero) * square(p.imu2.gyr_rad_s, zero));
+        product += dt / (dt + 0.2) * (rates - product);
+        if (square(p.imu1.acc_m_s2, pose1) + square(p.imu2.acc_m_s2, pose2) > 1.0) {
+            pose1 = p.imu1.acc_m_s2;
+            pose2 = p.imu2.acc_m_s2;
+            dwell = 0.0;
+            ++poses;
+        }
+        dwell += dt;
+        const double variance = (0.7 * 0.7) + (2.0 * product * 2.0 * product);
+        expected += dt / 0.05 / variance / (1.0 + dwell);
+    }
+    const double sum = (double)engine.moments.acc[jcal_sym_at(6, 6)];
+    TEST_ASSERT_TRUE(fabs(sum - expected) < SUM_TOL * expected);
+    TEST_ASSERT_TRUE((poses > 5) && (poses < SAMPLES / 2)); /* both cases were met */
+}
+
+static void an_hour_of_rest_weighs_as_much_as_a_few_seconds(void)
+{
+    motion_t rest = motion_lively(5);
+    rest.speed = 0.0;
+    rest.joint_speed = 0.0;
+    rest.rate_hz = 25.0;
+    for (uint32_t k = 0; k <= 90000u; ++k) {
+        const jcal_pair_t p = motion_sample(&rest, k);
+        jcal_hinge_consume(&engine, &p);
+    }
+    /* Integral of 1 / (1 + t) over an hour: ln 3601 = 8.2 s. */
+    const double seconds = (double)engine.moments.acc[jcal_sym_at(6, 6)] * 0.05 * 0.7 * 0.7;
+    TEST_ASSERT_TRUE(fabs(seconds - log(3601.0)) < 0.05 * log(3601.0));
+}
+
+static void a_sample_stands_for_the_time_since_the_last_one_up_to_50_ms(void)
+{
+    const motion_t motion = motion_lively(6);
+    const uint64_t steps_us[3] = {10000u, 50000u, 200000u};
+    const double stands_for_s[3] = {0.01, 0.05, 0.05};
+    for (int i = 0; i < 3; ++i) {
+        setUp();
+        jcal_pair_t p = motion_sample(&motion, 0);
+        jcal_hinge_consume(&engine, &p);
+        const uint64_t first = p.t_us;
+        p = motion_sample(&motion, 7);
+        p.t_us = first + steps_us[i];
+        jcal_hinge_consume(&engine, &p);
+        const jcal_vec3_t zero = {0.0f, 0.0f, 0.0f};
+        const double rates2 = square(p.imu1.gyr_rad_s, zero) + square(p.imu2.gyr_rad_s, zero);
+        const double expected = stands_for_s[i] / 0.05 / (0.03 * 0.03 * (rates2 + 0.05));
+        const double weight = (double)engine.moments.gyr[jcal_sym_at(18, 18)]; /* the feature 1 */
+        TEST_ASSERT_TRUE(fabs(weight - expected) < SUM_TOL * expected);
+    }
+}
+
+static void the_work_per_second_does_not_depend_on_the_rate(void)
+{
+    /* One slice each 10 ms, at most 5 per sample: 8 slices are one cycle with one judgement. */
+    const double rates_hz[3] = {25.0, 50.0, 200.0};
+    for (int i = 0; i < 3; ++i) {
+        motion_t motion = motion_lively(7);
+        motion.rate_hz = rates_hz[i];
+        setUp();
+        uint32_t slices = 0;
+        for (uint32_t k = 0; k <= (uint32_t)(4.0 * rates_hz[i]); ++k) {
+            const uint8_t before = engine.slice;
+            const jcal_pair_t p = motion_sample(&motion, k);
+            jcal_hinge_consume(&engine, &p);
+            const uint32_t done = (engine.slice + 8u - before) % 8u;
+            TEST_ASSERT_TRUE(done <= 5u);
+            slices += done;
+        }
+        TEST_ASSERT_UINT32_WITHIN(2, 400, slices);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(the_weight_of_a_specific_force_falls_with_both_rates_and_while_a_pose_lasts);
+    RUN_TEST(an_hour_of_rest_weighs_as_much_as_a_few_seconds);
+    RUN_TEST(a_sample_stands_for_the_time_since_the_last_one_up_to_50_ms);
+    RUN_TEST(the_work_per_second_does_not_depend_on_the_rate);
+    return UNITY_END();
+}
