@@ -62,7 +62,14 @@ static void the_first_sample_is_checked_for_range_too(void)
     }
 }
 
-static void a_component_that_stands_at_its_extreme_is_saturated(void)
+/* The sensor turns: its largest rate is above what noise at rest can be. */
+static void turn(jcal_pair_t *pair, float rate)
+{
+    pair->imu1.gyr_rad_s.z += rate;
+    pair->imu2.gyr_rad_s.z += rate;
+}
+
+static void a_component_that_stands_at_its_extreme_while_the_sensor_turns_is_saturated(void)
 {
     for (int field = 0; field < 12; ++field) {
         for (int sign = -1; sign <= 1; sign += 2) {
@@ -71,11 +78,22 @@ static void a_component_that_stands_at_its_extreme_is_saturated(void)
             const float peak = (float)sign * (is_rate(field) ? 4.0f : 30.0f);
             for (uint32_t k = 0; k < 3; ++k) {
                 jcal_pair_t pair = good();
+                turn(&pair, 0.3f);
                 *component(&pair, field) = peak;
                 TEST_ASSERT_EQUAL_INT((k == 0u) ? JCAL_REJECT_NONE : JCAL_REJECT_SATURATED, check(&pair));
             }
             accept(5);
         }
+    }
+}
+
+static void a_specific_force_that_stands_while_the_sensor_rests_is_not_clipped(void)
+{
+    accept(20);
+    for (uint32_t k = 0; k < 5; ++k) { /* a coarse reading of gravity */
+        jcal_pair_t pair = good();
+        pair.imu1.acc_m_s2.z = 10.0f;
+        TEST_ASSERT_EQUAL_INT(JCAL_REJECT_NONE, check(&pair));
     }
 }
 
@@ -217,7 +235,8 @@ int main(void)
     RUN_TEST(a_value_that_is_not_finite_is_rejected_before_all_else_and_leaves_no_trace);
     RUN_TEST(readings_beyond_the_limits_are_out_of_range_and_those_at_them_are_not);
     RUN_TEST(the_first_sample_is_checked_for_range_too);
-    RUN_TEST(a_component_that_stands_at_its_extreme_is_saturated);
+    RUN_TEST(a_component_that_stands_at_its_extreme_while_the_sensor_turns_is_saturated);
+    RUN_TEST(a_specific_force_that_stands_while_the_sensor_rests_is_not_clipped);
     RUN_TEST(standing_below_the_extreme_or_near_zero_is_not_saturation);
     RUN_TEST(a_whole_reading_that_repeats_is_a_lost_packet_then_frozen);
     RUN_TEST(one_component_that_moves_is_enough_not_to_be_repeated);

@@ -39,6 +39,31 @@ static void a_fifth_of_bad_samples_in_two_seconds_is_too_much(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, jcal_gate_complaint(&gate));
 }
 
+static jcal_pair_t not_a_number(void)
+{
+    jcal_pair_t pair = good();
+    pair.imu1.acc_m_s2.x = NAN;
+    return pair;
+}
+
+static jcal_pair_t standing_clock(void)
+{
+    jcal_pair_t pair = good();
+    pair.t_us = 1u;
+    return pair;
+}
+
+static void samples_without_a_believable_time_count_by_their_number(void)
+{
+    jcal_pair_t (*const bad[2])(void) = {not_a_number, standing_clock};
+    for (int i = 0; i < 2; ++i) {
+        setUp();
+        accept(200);
+        /* A fiftieth each: 1 - 0.98^n > 0.2 from n = 11.05 on. */
+        TEST_ASSERT_EQUAL_UINT32(12, complains_after(bad[i], JCAL_REASON_BAD_SAMPLES));
+    }
+}
+
 static jcal_pair_t at_the_stop(void)
 {
     jcal_pair_t pair = good();
@@ -132,6 +157,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_fifth_of_bad_samples_in_two_seconds_is_too_much);
+    RUN_TEST(samples_without_a_believable_time_count_by_their_number);
     RUN_TEST(a_hundredth_of_saturated_samples_in_ten_seconds_is_too_much);
     RUN_TEST(specific_forces_that_cannot_be_gravity_are_wrong_units);
     RUN_TEST(the_first_sample_in_g_is_recognised);

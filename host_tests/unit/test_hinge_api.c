@@ -144,7 +144,6 @@ static void a_full_inbox_is_an_error_and_loses_nothing(void)
     }
     const jcal_pair_t next = motion_sample(&motion, JCAL_INBOX_CAPACITY);
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_FULL, jcal_hinge_push(&engine, &next));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_FULL, jcal_hinge_update(&engine, &next));
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_step(&engine));
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_push(&engine, &next)); /* the same sample is still welcome */
     while (jcal_hinge_step(&engine) == JCAL_OK) {
@@ -153,6 +152,21 @@ static void a_full_inbox_is_an_error_and_loses_nothing(void)
     assert_same_state(&engine, &other);
     TEST_ASSERT_TRUE(result_of(&engine).t_us == next.t_us);
     TEST_ASSERT_EQUAL_UINT32(JCAL_INBOX_CAPACITY + 1u, result_of(&engine).samples);
+}
+
+static void update_makes_room_in_a_full_inbox(void)
+{
+    const motion_t motion = motion_lively(6);
+    jcal_hinge_t other = engine;
+    for (uint32_t k = 0; k < JCAL_INBOX_CAPACITY; ++k) {
+        const jcal_pair_t pair = motion_sample(&motion, k);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_push(&engine, &pair));
+    }
+    run(&engine, &motion, JCAL_INBOX_CAPACITY, 100);
+    while (jcal_hinge_step(&engine) == JCAL_OK) {
+    }
+    run(&other, &motion, 0, 100);
+    assert_same_state(&engine, &other);
 }
 
 static void bursts_of_pushes_and_steps_equal_one_update_per_sample(void)
@@ -259,6 +273,7 @@ int main(void)
     RUN_TEST(before_any_sample_nothing_is_known_and_that_is_said);
     RUN_TEST(nan_and_infinity_are_rejected_and_counted_wherever_they_stand);
     RUN_TEST(a_full_inbox_is_an_error_and_loses_nothing);
+    RUN_TEST(update_makes_room_in_a_full_inbox);
     RUN_TEST(bursts_of_pushes_and_steps_equal_one_update_per_sample);
     RUN_TEST(shifting_all_times_changes_no_bit);
     RUN_TEST(a_copy_made_at_any_time_goes_on_to_the_same_bits);

@@ -102,9 +102,26 @@ static void the_last_start_is_the_estimate_with_axis_2_turned_round(void)
     TEST_ASSERT_EQUAL_FLOAT(turned.z, engine.search.probe.j2.z);
 }
 
+static void a_round_counts_only_after_the_joint_has_moved(void)
+{
+    place_at_truth();
+    engine.evidence.excitation = 0.0f;
+    for (int k = 0; k < 1000; ++k) {
+        jcal_hinge_search(&engine);
+    }
+    TEST_ASSERT_EQUAL_UINT8(0, engine.search.rounds);
+}
+
 static void a_round_over_all_starts_is_counted_and_stops_counting_at_its_limit(void)
 {
     place_at_truth();
+    engine.evidence.excitation = 1.0f;
+    engine.evidence.excitation = 0.0f;
+    for (int k = 0; k < 400; ++k) {
+        jcal_hinge_search(&engine);
+    }
+    TEST_ASSERT_EQUAL_UINT8(0, engine.search.rounds); /* rounds over data in which no joint moved say nothing */
+    engine.evidence.excitation = 1.0f;
     for (int k = 0; (k < 1000) && (engine.search.rounds == 0u); ++k) {
         jcal_hinge_search(&engine);
     }
@@ -143,6 +160,25 @@ static void the_cost_is_the_sum_of_its_parts_and_of_the_prior(void)
     TEST_ASSERT_TRUE(fabs((double)jcal_hinge_cost(&engine, &point) - expected) < 1e-6 * expected);
     engine.search.rival = (jcal_hinge_place_t){point.axis1.j, point.axis2.j, point.axis1.bias, point.axis2.bias};
     TEST_ASSERT_TRUE(fabs((double)jcal_hinge_cost_of_rival(&engine) - expected) < 1e-5 * expected);
+}
+
+static void sums_that_hold_nan_or_nothing_give_starts_along_the_coordinates_and_no_nan(void)
+{
+    const float bad[2] = {NAN, 0.0f};
+    for (int i = 0; i < 2; ++i) {
+        setUp();
+        for (size_t k = 0; k < sizeof engine.moments.gyr / sizeof(float); ++k) {
+            engine.moments.gyr[k] = bad[i];
+        }
+        memset(engine.moments.acc, 0, sizeof engine.moments.acc);
+        for (int k = 0; k < 400; ++k) {
+            jcal_hinge_search(&engine);
+            TEST_ASSERT_TRUE(jcal_vec3_is_finite(engine.search.probe.j1) &&
+                             jcal_vec3_is_finite(engine.search.probe.j2));
+            TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f, jcal_vec3_norm(engine.search.probe.j1));
+        }
+        TEST_ASSERT_TRUE(jcal_vec3_is_finite(engine.point.axis1.j));
+    }
 }
 
 static void tracking_without_an_estimate_does_nothing(void)
@@ -197,9 +233,11 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(the_first_18_starts_are_all_pairs_of_eigenvectors_with_either_sign);
     RUN_TEST(the_last_start_is_the_estimate_with_axis_2_turned_round);
+    RUN_TEST(a_round_counts_only_after_the_joint_has_moved);
     RUN_TEST(a_round_over_all_starts_is_counted_and_stops_counting_at_its_limit);
     RUN_TEST(a_search_without_an_estimate_finds_the_axes);
     RUN_TEST(the_cost_is_the_sum_of_its_parts_and_of_the_prior);
+    RUN_TEST(sums_that_hold_nan_or_nothing_give_starts_along_the_coordinates_and_no_nan);
     RUN_TEST(tracking_without_an_estimate_does_nothing);
     RUN_TEST(an_axis_carries_an_orthonormal_tangent_and_a_bias_across_it);
     RUN_TEST(lines_are_the_same_within_eleven_degrees_whatever_their_signs);

@@ -147,7 +147,7 @@ typedef struct {
     jcal_hinge_place_t rival;  ///< Best other minimum.
     jcal_vec3_t flip1, flip2;  ///< Best axes of the other sign pairing, with the biases of the estimate.
     float damping;
-    uint8_t rounds;      ///< Complete rounds over all starts since the estimate last changed its minimum.
+    uint8_t rounds;      ///< Complete rounds over all starts since the joint first moved.
     uint8_t start;       ///< Which start the probe came from.
     uint8_t iterations;  ///< Steps that the probe has made.
     bool running, has_flip, has_rival;

@@ -28,6 +28,9 @@
 /// Keeps the weight 1 / (|w1|^2 + |w2|^2 + eps) finite at rest, (rad/s)^2; docs/METHOD.md section 2.
 #define RATE_EPS 0.05f
 
+/// Age of earlier rates that there are not: more than any that counts, s.
+#define NO_EARLIER_RATES_S 1.0f
+
 /// Time constant of the product of the rates, s.
 #define PRODUCT_TIME_S 0.2f
 
@@ -98,7 +101,7 @@ void jcal_hinge_start(jcal_hinge_t *self, const jcal_hinge_config_t *config)
     self->cfg = cfg;
     jcal_gate_init(&self->gate);
     self->damping = JCAL_GN_DAMPING_START;
-    self->evidence.before_s = STEP_MAX_S + 1.0f; /* no earlier rates: older than any that count */
+    self->evidence.before_s = NO_EARLIER_RATES_S;
     self->verdict.bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
     self->verdict.bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
     self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
@@ -224,6 +227,9 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
     if (first) {
         return;
     }
+    if (since_s > STEP_MAX_S) {
+        self->evidence.before_s = NO_EARLIER_RATES_S; /* no difference quotient across a hole */
+    }
     const float dt_s = jcal_min(since_s, STEP_MAX_S);
     const jcal_hinge_sample_t sample = weigh(self, pair, dt_s);
     sum_up(self, &sample);
@@ -249,6 +255,9 @@ jcal_status_t jcal_hinge_step(jcal_hinge_t *self)
 
 jcal_status_t jcal_hinge_update(jcal_hinge_t *self, const jcal_pair_t *pair)
 {
+    if ((self != NULL) && (pair != NULL) && jcal_inbox_full(&self->inbox)) {
+        (void)jcal_hinge_step(self); /* pushes without steps have filled the inbox: make room */
+    }
     const jcal_status_t pushed = jcal_hinge_push(self, pair);
     return (pushed == JCAL_OK) ? jcal_hinge_step(self) : pushed;
 }

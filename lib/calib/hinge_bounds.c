@@ -112,19 +112,29 @@ static float acc_trust(const jcal_hinge_lin_t *lin)
     return 1.0f / (1.0f + (ACC_SYSTEMATIC * lin->cost_acc));
 }
 
+/// What keeps information from being taken at its word, per sensor.
+typedef struct {
+    float pretended[2];  ///< Information that noise in the regressors makes up.
+    float prior[2];      ///< Weight of the prior of the biases.
+} doubts_t;
+
 /// Information about the axes with the biases eliminated, S = A - C' B^-1 C (4 x 4); `gain` is B^-1 C, column by
 /// column.
 ///
 /// Noise in the regressors pretends information: the gradient -2 (w . j) q holds q's own noise. It is taken off
 /// before anything is concluded (4 noise sum (w . j)^2 for the rates, the residual power for the specific forces),
 /// else a stiff joint looks better known the longer it is watched.
-static bool information(const jcal_hinge_lin_t *lin, const float pretended[2], float s[10], float gain[AXIS][AXIS])
+///
+/// `prior` weighs the prior of each sensor's biases. S is in units of the assumed residuals; where the real ones scatter
+/// `inflation` times as much in power, all but the prior shrinks by that, so the prior enters `inflation` times.
+static bool information(const jcal_hinge_lin_t *lin, const doubts_t *doubts, float s[10], float gain[AXIS][AXIS])
 {
     float b[10];
     for (unsigned i = 0u; i < AXIS; ++i) {
         for (unsigned k = 0u; k <= i; ++k) {
             b[jcal_sym_at(i, k)] = lin->matrix[jcal_sym_at(AXIS + i, AXIS + k)];
         }
+        b[jcal_sym_at(i, i)] += doubts->prior[i / 2u] - 1.0f;
     }
     if (jcal_chol_factor(b, AXIS, b, NULL) != JCAL_OK) {
         return false;
@@ -139,7 +149,7 @@ static bool information(const jcal_hinge_lin_t *lin, const float pretended[2], f
     const float doubt = 1.0f - acc_trust(lin);
     for (unsigned i = 0u; i < AXIS; ++i) {
         for (unsigned k = 0u; k <= i; ++k) {
-            float sum = lin->matrix[jcal_sym_at(i, k)] - ((i == k) ? pretended[i / 2u] : 0.0f);
+            float sum = lin->matrix[jcal_sym_at(i, k)] - ((i == k) ? doubts->pretended[i / 2u] : 0.0f);
             sum -= lin->matrix_acc[jcal_sym_at(i, k)] * doubt;
             for (unsigned m = 0u; m < AXIS; ++m) {
                 sum -= lin->matrix[jcal_sym_at(AXIS + m, i)] * gain[k][m];
@@ -150,11 +160,20 @@ static bool information(const jcal_hinge_lin_t *lin, const float pretended[2], f
     return true;
 }
 
-/// Half the trace of (own block of the matrix)^-1 times the scatter of the score with the own biases eliminated.
+/// Half the trace of (information of one axis)^-1 times the scatter of its score, the own biases eliminated from both; 1 for
+/// independent residuals of the assumed size. The prior of the biases scatters nothing and is left out.
 static float scatter_ratio(const jcal_hinge_lin_t *lin, const float *scatter, unsigned axis, float gain[AXIS][AXIS])
 {
     const unsigned r = 2u * axis;
+    const unsigned own[AXIS] = {r, r + 1u, AXIS + r, AXIS + r + 1u};
+    float block[10];
     float rows[2][AXIS];
+    for (unsigned i = 0u; i < AXIS; ++i) {
+        for (unsigned k = 0u; k <= i; ++k) {
+            block[jcal_sym_at(i, k)] = lin->matrix[jcal_sym_at(own[i], own[k])];
+        }
+        block[jcal_sym_at(i, i)] -= (i < 2u) ? 0.0f : 1.0f;
+    }
     for (unsigned i = 0u; i < 2u; ++i) {
         rows[i][0] = (i == 0u) ? 1.0f : 0.0f;
         rows[i][1] = (i == 1u) ? 1.0f : 0.0f;
@@ -164,9 +183,9 @@ static float scatter_ratio(const jcal_hinge_lin_t *lin, const float *scatter, un
     const float g00 = jcal_sym_bilinear(scatter, AXIS, rows[0], rows[0]);
     const float g01 = jcal_sym_bilinear(scatter, AXIS, rows[0], rows[1]);
     const float g11 = jcal_sym_bilinear(scatter, AXIS, rows[1], rows[1]);
-    const float a = lin->matrix[jcal_sym_at(r, r)];
-    const float b = lin->matrix[jcal_sym_at(r + 1u, r)];
-    const float d = lin->matrix[jcal_sym_at(r + 1u, r + 1u)];
+    const float a = jcal_sym_bilinear(block, AXIS, rows[0], rows[0]);
+    const float b = jcal_sym_bilinear(block, AXIS, rows[0], rows[1]);
+    const float d = jcal_sym_bilinear(block, AXIS, rows[1], rows[1]);
     const float determinant = jcal_max((a * d) - (b * b), (1e-6f * a * d) + 1e-20f);
     return 0.5f * ((d * g00) - (2.0f * b * g01) + (a * g11)) / determinant;
 }
@@ -230,51 +249,73 @@ static float second_order_bound2(const power_t *own, const power_t *other, float
     return sqrtf(power / left);
 }
 
-bool jcal_hinge_bounds(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin, jcal_hinge_bounds_t *out)
+/// How much more than independent residuals of the assumed size the score of an axis scatters.
+static float inflation_of(const jcal_hinge_lin_t *lin, const jcal_hinge_scatter_t *scatter, unsigned axis,
+                          float gain[AXIS][AXIS])
 {
-    const jcal_hinge_scatter_t *const scatters[2] = {&self->evidence.axis1, &self->evidence.axis2};
-    const float blocks[2] = {block_count(scatters[0]), block_count(scatters[1])};
-    if (!(blocks[0] >= BLOCKS_MIN) || !(blocks[1] >= BLOCKS_MIN)) {
-        return false;
-    }
-    const jcal_hinge_moments_t *const moments = &self->moments;
-    const power_t power[2] = {powers(moments, self->point.axis1.j, JCAL_HINGE_Z_W1W1),
-                              powers(moments, self->point.axis2.j, JCAL_HINGE_Z_W2W2)};
-    const float noise = noise_power(&self->evidence);
-    const float pretended[2] = {(4.0f * noise * power[0].along2) + (acc_trust(lin) * lin->cost_acc),
-                                (4.0f * noise * power[1].along2) + (acc_trust(lin) * lin->cost_acc)};
-    float s[10];
-    float gain[AXIS][AXIS];
-    float values[AXIS];
-    float vectors[AXIS * AXIS];
-    if (!information(lin, pretended, s, gain) || (jcal_eig_symmetric(s, AXIS, values, vectors) != JCAL_OK)) {
-        return false;
-    }
+    const float scale = scatter->information_all / jcal_max(scatter->information, 1e-20f);
+    const float coarse = scale * scatter_ratio(lin, scatter->scatter, axis, gain);
+    const float fine = scale * scatter_ratio(lin, scatter->fine_scatter, axis, gain);
+    return blend(coarse, fine, block_count(scatter));
+}
+
+/// The same of the second-order score, in its own units.
+static float second_scatter_of(const jcal_hinge_scatter_t *scatter)
+{
+    const float scale = scatter->information_all / jcal_max(scatter->information, 1e-20f);
+    return scale * blend(scatter->second, scatter->fine_second, block_count(scatter));
+}
+
+/// Sum of (w1 . j1)^2 (w2 . j2)^2.
+static float product_of_along(const jcal_hinge_t *self)
+{
     float along1[JCAL_HINGE_FEATURES];
     float along2[JCAL_HINGE_FEATURES];
     along_coefficients(self->point.axis1.j, JCAL_HINGE_Z_W1W1, along1);
     along_coefficients(self->point.axis2.j, JCAL_HINGE_Z_W2W2, along2);
-    const float product = jcal_sym_bilinear(moments->gyr, JCAL_HINGE_FEATURES, along1, along2);
-    /* A mismatch of the rates by a share of |w| can act alike in every sample: then it moves the estimate by no more than the
-       root of (its power in the residual / information), by Cauchy and Schwarz. */
+    return jcal_sym_bilinear(self->moments.gyr, JCAL_HINGE_FEATURES, along1, along2);
+}
+
+bool jcal_hinge_bounds(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin, jcal_hinge_bounds_t *out)
+{
+    const jcal_hinge_scatter_t *const scatters[2] = {&self->evidence.axis1, &self->evidence.axis2};
+    if (!(block_count(scatters[0]) >= BLOCKS_MIN) || !(block_count(scatters[1]) >= BLOCKS_MIN)) {
+        return false;
+    }
+    const power_t power[2] = {powers(&self->moments, self->point.axis1.j, JCAL_HINGE_Z_W1W1),
+                              powers(&self->moments, self->point.axis2.j, JCAL_HINGE_Z_W2W2)};
+    const float noise = noise_power(&self->evidence);
+    const float of_acc = acc_trust(lin) * lin->cost_acc;
+    doubts_t doubts = {{(4.0f * noise * power[0].along2) + of_acc, (4.0f * noise * power[1].along2) + of_acc},
+                       {1.0f, 1.0f}};
+    float s[10];
+    float gain[AXIS][AXIS];
+    float values[AXIS];
+    float vectors[AXIS * AXIS];
+    if (!information(lin, &doubts, s, gain)) {
+        return false;
+    }
+    const float inflation[2] = {inflation_of(lin, scatters[0], 0u, gain), inflation_of(lin, scatters[1], 1u, gain)};
+    doubts.prior[0] = inflation[0];
+    doubts.prior[1] = inflation[1];
+    if (!information(lin, &doubts, s, gain) || (jcal_eig_symmetric(s, AXIS, values, vectors) != JCAL_OK)) {
+        return false;
+    }
+    /* A mismatch of the rates by a share of |w| may act alike in every sample: then it moves the estimate by about the root of
+       (its power in the residual / information), by Cauchy and Schwarz. */
     const float mismatch = self->cfg.rate_mismatch;
     const float mismatch_power =
         4.0f * mismatch * mismatch * (power[0].mixed + power[1].mixed) / (ONE_DIRECTION + SECOND_DIRECTION);
+    const float product = product_of_along(self);
     float bounds[2];
-    out->inflation = 0.0f;
     for (unsigned axis = 0u; axis < 2u; ++axis) {
-        const jcal_hinge_scatter_t *const scatter = scatters[axis];
-        const float scale = scatter->information_all / jcal_max(scatter->information, 1e-20f);
-        const float coarse = scale * scatter_ratio(lin, scatter->scatter, axis, gain);
-        const float fine = scale * scatter_ratio(lin, scatter->fine_scatter, axis, gain);
-        const float inflation = blend(coarse, fine, blocks[axis]);
-        const float second = scale * blend(scatter->second, scatter->fine_second, blocks[axis]);
-        const float first_order = linear_bound2(values, vectors, axis, inflation + mismatch_power);
-        const float second_order = second_order_bound2(&power[axis], &power[1u - axis], product, noise, second);
+        const float first_order = linear_bound2(values, vectors, axis, inflation[axis] + mismatch_power);
+        const float second_order =
+            second_order_bound2(&power[axis], &power[1u - axis], product, noise, second_scatter_of(scatters[axis]));
         const float around_minimum = sqrtf(combine(first_order, second_order, &power[axis]));
         bounds[axis] = jcal_min(around_minimum + (STEPS_LEFT * self->moved_rad[axis]), JCAL_BOUND_UNKNOWN_RAD);
-        out->inflation = jcal_max(inflation, out->inflation);
     }
+    out->inflation = jcal_max(inflation[0], inflation[1]);
     out->bound1_rad = bounds[0];
     out->bound2_rad = bounds[1];
     return true;

@@ -60,13 +60,17 @@ static float ratio_of(float other, float same)
 static sign_t compare_signs(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin)
 {
     sign_t sign = {0.0f, 0.0f};
-    if (!self->search.has_flip) {
+    if (!self->search.has_flip && (self->search.rounds == 0u)) {
         return sign;
     }
     const jcal_hinge_evidence_t *const evidence = &self->evidence;
     jcal_hinge_point_t flip = self->point;
-    jcal_hinge_axis_set(&flip.axis1, self->search.flip1);
-    jcal_hinge_axis_set(&flip.axis2, self->search.flip2);
+    if (self->search.has_flip) {
+        jcal_hinge_axis_set(&flip.axis1, self->search.flip1);
+        jcal_hinge_axis_set(&flip.axis2, self->search.flip2);
+    } else { /* the other pairing has no minimum near these lines; one elsewhere is a rival */
+        jcal_hinge_axis_set(&flip.axis2, jcal_vec3_scale(self->point.axis2.j, -1.0f));
+    }
     const float acc_other = jcal_hinge_cost_acc(&self->moments, &self->cfg, &flip);
     const float gyr_other = jcal_hinge_cost_gyr(&self->moments, &flip);
     const float acc_time_s = (evidence->pair_acc * evidence->pair_acc) / jcal_max(evidence->pair_acc2, 1e-20f);
@@ -106,7 +110,8 @@ static bool has_rival(const jcal_hinge_t *self, float cost, float inflation)
         avoids_principal_line(self, &self->point.axis2, JCAL_HINGE_Z_W2W2)) {
         return true;
     }
-    if (!self->search.has_rival) {
+    const jcal_hinge_place_t *const rival = &self->search.rival;
+    if (!self->search.has_rival || jcal_hinge_same_lines(&self->point, rival->j1, rival->j2)) {
         return false;
     }
     const float other = jcal_hinge_cost_of_rival(self);
@@ -164,6 +169,9 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
         return JCAL_REASON_UNCERTAIN;
     }
     const bool hinted = self->cfg.sign_hint != JCAL_SIGN_UNKNOWN;
+    if (hinted && !jcal_hinge_obeys(&self->point, self->cfg.sign_hint)) {
+        return JCAL_REASON_SIGN_OPEN; /* the data insist on the pairing that the user excludes */
+    }
     if (!hinted && !((sign->evidence > SIGN_EVIDENCE_MIN) && (sign->margin > SIGN_MARGIN_MIN))) {
         return JCAL_REASON_SIGN_OPEN;
     }

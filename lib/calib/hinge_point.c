@@ -52,11 +52,15 @@ float jcal_hinge_main_sign(jcal_vec3_t v)
     return (main < 0.0f) ? -1.0f : 1.0f;
 }
 
-void jcal_hinge_obey(jcal_hinge_point_t *point, jcal_sign_hint_t hint)
+bool jcal_hinge_obeys(const jcal_hinge_point_t *point, jcal_sign_hint_t hint)
 {
     const bool same = jcal_hinge_main_sign(point->axis1.j) == jcal_hinge_main_sign(point->axis2.j);
-    const bool wrong = ((hint == JCAL_SIGN_SAME) && !same) || ((hint == JCAL_SIGN_OPPOSITE) && same);
-    if (wrong) {
+    return !((hint == JCAL_SIGN_SAME) && !same) && !((hint == JCAL_SIGN_OPPOSITE) && same);
+}
+
+void jcal_hinge_obey(jcal_hinge_point_t *point, jcal_sign_hint_t hint)
+{
+    if (!jcal_hinge_obeys(point, hint)) {
         jcal_hinge_axis_set(&point->axis2, jcal_vec3_scale(point->axis2.j, -1.0f));
     }
 }

@@ -31,6 +31,9 @@ void jcal_hinge_point_move(jcal_hinge_point_t *point, const float d[8], float bi
 /// True if a and b mean the same axes, whatever their pairing: both lines closer than about 11 deg.
 bool jcal_hinge_same_lines(const jcal_hinge_point_t *point, jcal_vec3_t j1, jcal_vec3_t j2);
 
+/// True if the sign pairing is the one that the user's hint names, or if there is no hint.
+bool jcal_hinge_obeys(const jcal_hinge_point_t *point, jcal_sign_hint_t hint);
+
 /// Turns axis 2 round if the user's hint says so.
 void jcal_hinge_obey(jcal_hinge_point_t *point, jcal_sign_hint_t hint);
 

@@ -203,7 +203,13 @@ static void adopt(jcal_hinge_t *self, const jcal_hinge_point_t *probe, bool same
         search->has_flip = false;
     }
     self->has_point = true;
+    const float turn_same = self->evidence.turn_other;
+    const float turn_other = self->evidence.turn_same;
     jcal_hinge_evidence_follow(&self->evidence, &self->point, true);
+    if (same_lines) { /* the same lines in the other pairing: what the rates said of the pairings still holds */
+        self->evidence.turn_same = turn_same;
+        self->evidence.turn_other = turn_other;
+    }
 }
 
 /// True if the probe runs into the estimate, so that its further steps would tell nothing.
@@ -292,6 +298,7 @@ void jcal_hinge_search(jcal_hinge_t *self)
     file_probe(self, &probe);
     if (search->start >= STARTS) {
         search->start = 0u;
-        search->rounds = (search->rounds < UINT8_MAX) ? (uint8_t)(search->rounds + 1u) : search->rounds;
+        const bool counts = (self->evidence.excitation > 0.0f) && (search->rounds < UINT8_MAX);
+        search->rounds = counts ? (uint8_t)(search->rounds + 1u) : search->rounds;
     }
 }

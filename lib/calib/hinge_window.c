@@ -197,11 +197,12 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
     if (self == NULL) {
         return JCAL_ERR_ARG;
     }
-    const uint32_t id = self->inbox_ids[self->guard.inbox.taken % JCAL_INBOX_CAPACITY];
+    const uint32_t at = self->guard.inbox.taken % JCAL_INBOX_CAPACITY;
     jcal_pair_t pair;
     if (!jcal_inbox_take(&self->guard.inbox, &pair)) {
         return JCAL_IDLE;
     }
+    const uint32_t id = self->inbox_ids[at];
     keep_time(self, pair.t_us);
     jcal_scored_t scored;
     if (jcal_score_push(&self->score, slots(self), &pair, id, &scored)) {
@@ -220,6 +221,9 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
 
 jcal_status_t jcal_hinge_window_update(jcal_hinge_window_t *self, const jcal_pair_t *pair)
 {
+    if ((self != NULL) && (pair != NULL) && jcal_inbox_full(&self->guard.inbox)) {
+        (void)jcal_hinge_window_step(self); /* pushes without steps have filled the inbox: make room */
+    }
     const jcal_status_t status = jcal_hinge_window_push(self, pair);
     if (status == JCAL_OK) {
         (void)jcal_hinge_window_step(self);

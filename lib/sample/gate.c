@@ -30,6 +30,7 @@
 /// Shares of bad samples that may be lived with: a peak that touches the range now and then, a short dropout.
 #define BAD_SHARE_MAX 0.2f
 #define BAD_TIME_S 2.0f
+#define BAD_STEP 0.02f
 #define SATURATED_SHARE_MAX 0.01f
 #define SATURATED_TIME_S 10.0f
 
@@ -87,17 +88,22 @@ static float share_of(float dt_s, float time_s)
     return dt_s / (dt_s + time_s);
 }
 
-/// True if some component stands still at the largest magnitude it ever had.
+/// True if some component stands still at the largest magnitude it ever had while the sensor turns; at rest a coarse reading
+/// repeats itself and is not clipped.
 static bool is_clipped(const jcal_gate_sensor_t *sensor, const float now[6])
 {
     bool clipped = false;
+    bool turns = false;
+    for (unsigned i = 0u; i < 3u; ++i) {
+        turns = turns || (fabsf(now[i]) > GYR_CLIP_MIN_RAD_S);
+    }
     for (unsigned i = 0u; i < 6u; ++i) {
         const float least = (i < 3u) ? GYR_CLIP_MIN_RAD_S : ACC_CLIP_MIN_M_S2;
         const float magnitude = fabsf(now[i]);
         const bool stands = (now[i] == sensor->last[i]) && (magnitude >= sensor->extreme[i]);
         clipped = clipped || (stands && (magnitude > least));
     }
-    return clipped;
+    return clipped && turns;
 }
 
 static bool is_repeated(const jcal_gate_sensor_t *sensor, const float now[6])
@@ -238,6 +244,9 @@ jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *confi
     }
     if (cause != JCAL_REJECT_NONE) {
         self->rejected_by[cause] += 1u;
+    }
+    if ((cause == JCAL_REJECT_NOT_FINITE) || (cause == JCAL_REJECT_TIME_ORDER) || (cause == JCAL_REJECT_GAP)) {
+        self->bad_share += BAD_STEP * (1.0f - self->bad_share); /* no believable time has passed */
     }
     return cause;
 }
