@@ -62,15 +62,16 @@ static inline double noise_in_double(const jcal_hinge_evidence_t *e)
     return 1.15 * mean * (0.5 + (1.6 * fmin(mean / across, 0.6)));
 }
 
-/// Information of the axes (4 x 4): noise power taken off, accelerometer discounted, biases eliminated.
-/// gain (4 x 4) is what a unit of an axis moves the biases by.
-static inline void information_in_double(const jcal_hinge_lin_t *lin, const power_sums_t *p, double noise, double s[16],
-                                         double gain[16])
+/// Information of the axes (4 x 4): noise power taken off, accelerometer discounted, biases eliminated with their prior
+/// counted `prior` times. gain (4 x 4) is what a unit of an axis moves the biases by.
+static inline void information_in_double(const jcal_hinge_lin_t *lin, const double pretended[2], const double prior[2],
+                                         double s[16], double gain[16])
 {
     const double trust = 1.0 / (1.0 + (0.1 * (double)lin->cost_acc));
     double b[16];
     for (size_t i = 0; i < 16; ++i) {
         b[i] = (double)lin->matrix[jcal_sym_at(4u + (i / 4u), 4u + (i % 4u))];
+        b[i] += ((i / 4u) == (i % 4u)) ? (prior[i / 8u] - 1.0) : 0.0;
     }
     invert(b, 4);
     for (size_t r = 0; r < 4; ++r) {
@@ -85,7 +86,7 @@ static inline void information_in_double(const jcal_hinge_lin_t *lin, const powe
         for (size_t c = 0; c < 4; ++c) {
             double sum = (double)lin->matrix[jcal_sym_at(r, c)];
             sum -= (1.0 - trust) * (double)lin->matrix_acc[jcal_sym_at(r, c)];
-            sum -= (r == c) ? ((4.0 * noise * p->along2[r / 2u]) + (trust * (double)lin->cost_acc)) : 0.0;
+            sum -= (r == c) ? pretended[r / 2u] : 0.0;
             for (size_t k = 0; k < 4; ++k) {
                 sum -= (double)lin->matrix[jcal_sym_at(4u + k, r)] * gain[(4u * k) + c];
             }
@@ -94,17 +95,15 @@ static inline void information_in_double(const jcal_hinge_lin_t *lin, const powe
     }
 }
 
-/// Half the trace of (own 2 x 2 block)^-1 times the scatter of the score with the own biases eliminated.
+/// Half the trace of (information of one axis)^-1 times the scatter of its score, the own biases eliminated from both
+/// and without their prior.
 static inline double ratio_in_double(const jcal_hinge_lin_t *lin, const float *scatter, size_t axis,
                                      const double gain[16])
 {
     const size_t first = 2u * axis;
+    const size_t own[4] = {first, first + 1u, 4u + first, 5u + first};
     double block[4];
     double reduced[4];
-    for (size_t i = 0; i < 4; ++i) {
-        block[i] = (double)lin->matrix[jcal_sym_at(first + (i / 2u), first + (i % 2u))];
-    }
-    invert(block, 2);
     for (size_t i = 0; i < 4; ++i) {
         /* Rows (e_r, -gain of own biases): the score of the axis minus what the biases explain of it. */
         double rows[2][4] = {{0.0}};
@@ -115,10 +114,15 @@ static inline double ratio_in_double(const jcal_hinge_lin_t *lin, const float *s
             rows[k][3] = -gain[(4u * (first + 1u)) + first + unknown[k]];
         }
         reduced[i] = 0.0;
+        block[i] = 0.0;
         for (size_t k = 0; k < 16; ++k) {
-            reduced[i] += rows[0][k / 4u] * rows[1][k % 4u] * (double)scatter[jcal_sym_at(k / 4u, k % 4u)];
+            const double both = rows[0][k / 4u] * rows[1][k % 4u];
+            const double prior = ((k / 4u == k % 4u) && (k / 4u >= 2u)) ? 1.0 : 0.0;
+            reduced[i] += both * (double)scatter[jcal_sym_at(k / 4u, k % 4u)];
+            block[i] += both * ((double)lin->matrix[jcal_sym_at(own[k / 4u], own[k % 4u])] - prior);
         }
     }
+    invert(block, 2);
     return 0.5 *
            ((block[0] * reduced[0]) + (block[1] * reduced[2]) + (block[2] * reduced[1]) + (block[3] * reduced[3]));
 }
@@ -142,6 +146,30 @@ static inline double second_in_double(const power_sums_t *p, size_t axis, double
     return sqrt(((4.0 * scatter) + (unequal * unequal)) / p->along4[axis] / left);
 }
 
+/// How often the score of an axis scatters what independent residuals of the assumed size would; also blocks and scale.
+static inline double inflation_in_double(const jcal_hinge_lin_t *lin, const jcal_hinge_scatter_t *e, size_t axis,
+                                         const double gain[16], double second[1])
+{
+    const double closed = (double)e->information - (double)e->coarse_information;
+    const double blocks = closed * closed / (double)e->information2;
+    const double scale = (double)e->information_all / (double)e->information;
+    second[0] = scale * blend_in_double((double)e->second, (double)e->fine_second, blocks);
+    return blend_in_double(scale * ratio_in_double(lin, e->scatter, axis, gain),
+                           scale * ratio_in_double(lin, e->fine_scatter, axis, gain), blocks);
+}
+
+/// How much more than independent residuals the score of an axis scatters.
+static inline double inflation_in_double(const jcal_hinge_scatter_t *e, const jcal_hinge_lin_t *lin, size_t axis,
+                                         const double gain[16], double *second)
+{
+    const double closed = (double)e->information - (double)e->coarse_information;
+    const double blocks = closed * closed / (double)e->information2;
+    const double scale = (double)e->information_all / (double)e->information;
+    *second = scale * blend_in_double((double)e->second, (double)e->fine_second, blocks);
+    return blend_in_double(scale * ratio_in_double(lin, e->scatter, axis, gain),
+                           scale * ratio_in_double(lin, e->fine_scatter, axis, gain), blocks);
+}
+
 /// 95 % bounds of both axes, rad, for information without an open direction.
 static inline void bounds_in_double(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin, const power_sums_t *p,
                                     double out[2])
@@ -149,23 +177,23 @@ static inline void bounds_in_double(const jcal_hinge_t *self, const jcal_hinge_l
     const double noise = noise_in_double(&self->evidence);
     const double mismatch = (double)self->cfg.rate_mismatch;
     const double floor = 4.0 * mismatch * mismatch * (p->mixed[0] + p->mixed[1]) / (3.84 + 2.15);
+    const double of_acc = (double)lin->cost_acc / (1.0 + (0.1 * (double)lin->cost_acc));
+    const double pretended[2] = {(4.0 * noise * p->along2[0]) + of_acc, (4.0 * noise * p->along2[1]) + of_acc};
+    const double once[2] = {1.0, 1.0};
     double s[16];
     double gain[16];
-    information_in_double(lin, p, noise, s, gain);
+    double second[2];
+    information_in_double(lin, pretended, once, s, gain);
+    const double inflation[2] = {inflation_in_double(&self->evidence.axis1, lin, 0, gain, &second[0]),
+                                 inflation_in_double(&self->evidence.axis2, lin, 1, gain, &second[1])};
+    information_in_double(lin, pretended, inflation, s, gain);
     invert(s, 4);
     for (size_t axis = 0; axis < 2; ++axis) {
-        const jcal_hinge_scatter_t *const e = (axis == 0u) ? &self->evidence.axis1 : &self->evidence.axis2;
-        const double closed = (double)e->information - (double)e->coarse_information;
-        const double blocks = closed * closed / (double)e->information2;
-        const double scale = (double)e->information_all / (double)e->information;
-        const double inflation = blend_in_double(scale * ratio_in_double(lin, e->scatter, axis, gain),
-                                                 scale * ratio_in_double(lin, e->fine_scatter, axis, gain), blocks);
-        const double second = scale * blend_in_double((double)e->second, (double)e->fine_second, blocks);
         const double *const c = &s[(4u * 2u * axis) + (2u * axis)]; /* own 2 x 2 block, rows 4 apart */
         const double mean = 0.5 * (c[0] + c[5]);
         const double half = sqrt((0.25 * (c[0] - c[5]) * (c[0] - c[5])) + (c[1] * c[1]));
-        const double first = (inflation + floor) * ((3.84 * (mean + half)) + (2.15 * (mean - half)));
-        const double by_second = second_in_double(p, axis, noise, second);
+        const double first = (inflation[axis] + floor) * ((3.84 * (mean + half)) + (2.15 * (mean - half)));
+        const double by_second = second_in_double(p, axis, noise, second[axis]);
         const bool holds = first * p->along2[axis] < 0.16 * (p->all2[axis] - p->along2[axis]);
         out[axis] =
             sqrt(holds ? fmin(first, by_second) : fmax(first, by_second)) + (1.5 * (double)self->moved_rad[axis]);
