@@ -146,18 +146,6 @@ static inline double second_in_double(const power_sums_t *p, size_t axis, double
     return sqrt(((4.0 * scatter) + (unequal * unequal)) / p->along4[axis] / left);
 }
 
-/// How often the score of an axis scatters what independent residuals of the assumed size would; also blocks and scale.
-static inline double inflation_in_double(const jcal_hinge_lin_t *lin, const jcal_hinge_scatter_t *e, size_t axis,
-                                         const double gain[16], double second[1])
-{
-    const double closed = (double)e->information - (double)e->coarse_information;
-    const double blocks = closed * closed / (double)e->information2;
-    const double scale = (double)e->information_all / (double)e->information;
-    second[0] = scale * blend_in_double((double)e->second, (double)e->fine_second, blocks);
-    return blend_in_double(scale * ratio_in_double(lin, e->scatter, axis, gain),
-                           scale * ratio_in_double(lin, e->fine_scatter, axis, gain), blocks);
-}
-
 /// How much more than independent residuals the score of an axis scatters.
 static inline double inflation_in_double(const jcal_hinge_scatter_t *e, const jcal_hinge_lin_t *lin, size_t axis,
                                          const double gain[16], double *second)

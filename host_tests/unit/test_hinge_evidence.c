@@ -1,79 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Tests of lib/calib/hinge_evidence.h: every sum against double precision, sample by sample.
-#include "hinge_double.h"
-#include "hinge_motion.h"
-#include "jointcal/vec3.h"
-#include "unity.h"
-
-#include <string.h>
-
-enum { SAMPLES = 900 };
-
-#define UNIT_RAD_S 0.02f
-#define ACC_CONSTANT_M_S2 0.3f
+#include "hinge_evidence_fixture.h"
 
 /* Sums of 900 float terms of one sign: their relative error. Signed sums are compared with the sum of magnitudes. */
 static const double SUM_TOL = 2e-5;
-
-static jcal_hinge_evidence_t evidence;
-static jcal_hinge_point_t point;
-static jcal_hinge_sample_t samples[SAMPLES];
-static double times_s[SAMPLES];
-
-static jcal_hinge_sample_t sample_of(const jcal_pair_t *pair, float dt_s, uint32_t k)
-{
-    jcal_hinge_sample_t s;
-    s.w1 = pair->imu1.gyr_rad_s;
-    s.w2 = pair->imu2.gyr_rad_s;
-    s.a1 = pair->imu1.acc_m_s2;
-    s.a2 = pair->imu2.acc_m_s2;
-    s.w1_2 = jcal_vec3_dot(s.w1, s.w1);
-    s.w2_2 = jcal_vec3_dot(s.w2, s.w2);
-    s.dt_s = dt_s;
-    s.gyr_weight = 100.0f + (float)(k % 7u);
-    s.acc_weight = 0.1f + (0.02f * (float)(k % 5u));
-    return s;
-}
-
-void setUp(void)
-{
-    motion_t motion = motion_lively(3);
-    motion.rate_hz = 100.0;
-    motion.gyr_noise_rad_s = 0.03;
-    memset(&evidence, 0, sizeof evidence);
-    memset(&point, 0, sizeof point);
-    jcal_rng_t rng = {4};
-    /* A little beside the truth, so that residuals have a mean too. */
-    point.axis1.bias = jcal_vec3_scale(jcal_rng_unit(&rng), 0.05f);
-    point.axis2.bias = jcal_vec3_scale(jcal_rng_unit(&rng), 0.05f);
-    jcal_hinge_axis_set(&point.axis1, jcal_vec3_normalise(jcal_vec3_add(motion_axis(&motion, 0),
-                                                                        jcal_vec3_scale(jcal_rng_unit(&rng), 0.1f))));
-    jcal_hinge_axis_set(&point.axis2, jcal_vec3_normalise(jcal_vec3_add(motion_axis(&motion, 1),
-                                                                        jcal_vec3_scale(jcal_rng_unit(&rng), 0.1f))));
-    evidence.before_s = 1.0f;
-    double t = 0.0;
-    for (uint32_t k = 0; k < SAMPLES; ++k) {
-        const jcal_pair_t pair = motion_sample(&motion, k);
-        /* Uneven steps: no block then ends on a tie of rounding. */
-        const float dt = 0.01f + (0.0013f * jcal_rng_symmetric(&rng));
-        samples[k] = sample_of(&pair, dt, k);
-        t += (double)dt;
-        times_s[k] = t;
-    }
-}
-
-void tearDown(void)
-{
-}
-
-static void add_all(uint32_t count)
-{
-    for (uint32_t k = 0; k < count; ++k) {
-        jcal_hinge_evidence_watch(&evidence, &samples[k]);
-        jcal_hinge_evidence_add(&evidence, &point, ACC_CONSTANT_M_S2, UNIT_RAD_S, &samples[k]);
-    }
-}
 
 static void assert_sum(double expected, double size, float actual)
 {
@@ -327,93 +258,6 @@ static void rates_across_a_hole_make_no_turn(void)
     TEST_ASSERT_TRUE(evidence.turn_time_s > 0.0f);
 }
 
-static void an_axis_that_moves_far_begins_its_sums_anew_and_the_other_keeps_them(void)
-{
-    jcal_hinge_evidence_follow(&evidence, &point, true);
-    add_all(SAMPLES);
-    const jcal_hinge_evidence_t before = evidence;
-    const float degrees[3] = {14.0f, 21.0f, 180.0f};
-    for (int i = 0; i < 3; ++i) {
-        for (int sensor = 0; sensor < 2; ++sensor) {
-            jcal_hinge_point_t moved = point;
-            jcal_hinge_axis_t *const axis = (sensor == 0) ? &moved.axis1 : &moved.axis2;
-            const float rad = degrees[i] * 0.0174532925f;
-            jcal_hinge_axis_set(
-                axis, jcal_vec3_add(jcal_vec3_scale(axis->j, cosf(rad)), jcal_vec3_scale(axis->u, sinf(rad))));
-            evidence = before;
-            jcal_hinge_evidence_follow(&evidence, &moved, false);
-            const bool far = i > 0;
-            const bool anew1 = far && (sensor == 0);
-            const bool anew2 = far && (sensor == 1);
-            TEST_ASSERT_EQUAL_FLOAT(anew1 ? 0.0f : before.axis1.time_s, evidence.axis1.time_s);
-            TEST_ASSERT_EQUAL_FLOAT(anew2 ? 0.0f : before.axis2.time_s, evidence.axis2.time_s);
-            TEST_ASSERT_EQUAL_FLOAT(far ? 0.0f : before.fit_time_s, evidence.fit_time_s);
-            TEST_ASSERT_EQUAL_FLOAT(far ? 0.0f : before.turn_other, evidence.turn_other);
-            TEST_ASSERT_EQUAL_FLOAT(before.axis1.information_all, evidence.axis1.information_all);
-            TEST_ASSERT_EQUAL_FLOAT(before.axis2.information_all, evidence.axis2.information_all);
-            TEST_ASSERT_EQUAL_FLOAT(before.excitation, evidence.excitation);
-        }
-    }
-}
-
-static void halving_halves_every_sum_over_all_samples(void)
-{
-    add_all(SAMPLES);
-    const jcal_hinge_evidence_t b = evidence;
-    jcal_hinge_evidence_halve(&evidence);
-    const float before[] = {b.fit_time_s,
-                            b.across_error2,
-                            b.across_rate2,
-                            b.difference2,
-                            b.noise_sum,
-                            b.noise_weight,
-                            b.pair_acc,
-                            b.pair_acc2,
-                            b.turn_same,
-                            b.turn_other,
-                            b.turn_time_s,
-                            b.excitation,
-                            b.axis1.information,
-                            b.axis1.information2,
-                            b.axis1.information_all,
-                            b.axis1.second,
-                            b.axis1.fine_second,
-                            b.axis1.time_s,
-                            b.axis2.scatter[9],
-                            b.axis2.fine_scatter[9],
-                            b.axis2.scatter[0],
-                            b.axis2.fine_scatter[0],
-                            b.axis2.information_all};
-    const jcal_hinge_evidence_t *const e = &evidence;
-    const float after[] = {e->fit_time_s,
-                           e->across_error2,
-                           e->across_rate2,
-                           e->difference2,
-                           e->noise_sum,
-                           e->noise_weight,
-                           e->pair_acc,
-                           e->pair_acc2,
-                           e->turn_same,
-                           e->turn_other,
-                           e->turn_time_s,
-                           e->excitation,
-                           e->axis1.information,
-                           e->axis1.information2,
-                           e->axis1.information_all,
-                           e->axis1.second,
-                           e->axis1.fine_second,
-                           e->axis1.time_s,
-                           e->axis2.scatter[9],
-                           e->axis2.fine_scatter[9],
-                           e->axis2.scatter[0],
-                           e->axis2.fine_scatter[0],
-                           e->axis2.information_all};
-    for (size_t i = 0; i < sizeof before / sizeof before[0]; ++i) {
-        TEST_ASSERT_TRUE(before[i] > 0.0f);
-        TEST_ASSERT_EQUAL_FLOAT(0.5f * before[i], after[i]);
-    }
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -423,7 +267,5 @@ int main(void)
     RUN_TEST(turns_about_the_axis_equal_those_in_double);
     RUN_TEST(the_turn_of_exact_motion_tells_the_pairing);
     RUN_TEST(rates_across_a_hole_make_no_turn);
-    RUN_TEST(an_axis_that_moves_far_begins_its_sums_anew_and_the_other_keeps_them);
-    RUN_TEST(halving_halves_every_sum_over_all_samples);
     return UNITY_END();
 }
