@@ -68,9 +68,9 @@ static void the_first_18_starts_are_all_pairs_of_eigenvectors_with_either_sign(v
     double values[2][3] = {{0.0}};
     jcal_vec3_t starts[EIGEN_STARTS][2];
     place_at_truth();
-    for (uint8_t s = 0; s < EIGEN_STARTS; ++s) {
+    for (int s = 0; s < EIGEN_STARTS; ++s) {
         engine.search.running = false;
-        engine.search.start = s;
+        engine.search.start = (uint8_t)s;
         jcal_hinge_search(&engine);
         starts[s][0] = engine.search.probe.j1;
         starts[s][1] = engine.search.probe.j2;
