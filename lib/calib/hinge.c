@@ -38,7 +38,7 @@
 /// this, (m/s^2)^2.
 #define DWELL_ACC2 1.0f
 
-/// Sums are halved when they reach this: about half an hour of brisk motion. One more sample then changes a sum by
+/// Sums are halved when they reach this: half an hour at 1 rad/s, four minutes at 3 rad/s. One more sample then changes a sum by
 /// 2^-17 of itself, a hundred times what float32 resolves.
 #define INFORMATION_MAX 5e7f
 #define ACC_WEIGHT_MAX 2e4f
