@@ -164,6 +164,47 @@ static void ready_takes_more_than_two_judgements_in_a_row_that_agree(void)
     assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
 }
 
+static void an_estimate_that_the_hint_excludes_leaves_ready(void)
+{
+    make_ready();
+    const bool same = jcal_hinge_main_sign(engine.point.axis1.j) == jcal_hinge_main_sign(engine.point.axis2.j);
+    engine.cfg.sign_hint = same ? JCAL_SIGN_OPPOSITE : JCAL_SIGN_SAME;
+    assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_SIGN_OPEN, JCAL_HINT_TILT_AXIS);
+    engine.cfg.sign_hint = same ? JCAL_SIGN_SAME : JCAL_SIGN_OPPOSITE;
+    assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
+}
+
+/* As if the same residuals had been met in fewer readings: all sums of squares shrink alike. */
+static void weaken(float share)
+{
+    jcal_hinge_scatter_t *const scatters[2] = {&engine.evidence.axis1, &engine.evidence.axis2};
+    jcal_sym_scale(engine.moments.gyr, 19u, share);
+    jcal_sym_scale(engine.moments.acc, 7u, share);
+    for (int i = 0; i < 2; ++i) {
+        jcal_sym_scale(scatters[i]->scatter, 4u, share);
+        jcal_sym_scale(scatters[i]->fine_scatter, 4u, share);
+        scatters[i]->second *= share;
+        scatters[i]->fine_second *= share;
+    }
+}
+
+static void a_rival_many_times_as_costly_counts_while_the_difference_is_a_few_readings(void)
+{
+    make_ready();
+    const bool same = jcal_hinge_main_sign(engine.point.axis1.j) == jcal_hinge_main_sign(engine.point.axis2.j);
+    engine.cfg.sign_hint = same ? JCAL_SIGN_SAME : JCAL_SIGN_OPPOSITE;
+    engine.cfg.max_bound_rad = 0.5f; /* the widest: bounds are not what this is about */
+    const float c = cosf(0.26f);     /* 15 deg: another line */
+    const float s = sinf(0.26f);
+    set_rival(jcal_vec3_add(jcal_vec3_scale(engine.point.axis1.j, c), jcal_vec3_scale(engine.point.axis1.u, s)),
+              jcal_vec3_add(jcal_vec3_scale(engine.point.axis2.j, c), jcal_vec3_scale(engine.point.axis2.u, s)));
+    assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
+    /* Until the rival costs 3 readings more: below 15 times the least scatter that is believed, 0.3. */
+    weaken(3.0f / (jcal_hinge_cost_of_rival(&engine) - jcal_hinge_cost(&engine, &engine.point)));
+    TEST_ASSERT_TRUE(jcal_hinge_cost_of_rival(&engine) > 1.5f * jcal_hinge_cost(&engine, &engine.point));
+    assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_OTHER_MINIMUM, JCAL_HINT_MOVE_JOINT);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -176,5 +217,7 @@ int main(void)
     RUN_TEST(residuals_of_a_quarter_of_the_difference_of_the_rates_do_not_fit);
     RUN_TEST(a_bound_above_the_limit_names_the_axis);
     RUN_TEST(ready_takes_more_than_two_judgements_in_a_row_that_agree);
+    RUN_TEST(an_estimate_that_the_hint_excludes_leaves_ready);
+    RUN_TEST(a_rival_many_times_as_costly_counts_while_the_difference_is_a_few_readings);
     return UNITY_END();
 }

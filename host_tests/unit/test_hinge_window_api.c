@@ -187,6 +187,7 @@ static void null_pointers_are_refused_everywhere(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_window_push(&engine, NULL));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_window_step(NULL));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_window_update(NULL, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_window_update(&engine, NULL));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_window_get(NULL, &result));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_window_get(&engine, NULL));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_window_reset(NULL));
@@ -209,6 +210,53 @@ static void selection_into_too_little_room_is_refused(void)
     TEST_ASSERT_EQUAL_size_t(5, room);
 }
 
+static void update_makes_room_in_a_full_inbox(void)
+{
+    const motion_t motion = motion_lively(14);
+    jcal_hinge_window_t other;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_window_init(&other, &config, storage2, sizeof storage2));
+    for (uint32_t k = 0; k < JCAL_INBOX_CAPACITY; ++k) {
+        const jcal_pair_t pair = motion_sample(&motion, k);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_window_push(&engine, &pair));
+    }
+    run(&engine, &motion, JCAL_INBOX_CAPACITY, 300);
+    while (jcal_hinge_window_step(&engine) == JCAL_OK) {
+    }
+    run(&other, &motion, 0, 300);
+    const jcal_hinge_result_t a = result_of(&engine);
+    const jcal_hinge_result_t b = result_of(&other);
+    TEST_ASSERT_EQUAL_UINT32(300, a.samples);
+    TEST_ASSERT_TRUE(a.t_us == b.t_us);
+    TEST_ASSERT_EQUAL_MEMORY(storage, storage2, sizeof storage);
+}
+
+/* `v` turned by about 4 deg, more than max_bound. */
+static jcal_vec3_t turned_away(jcal_vec3_t v)
+{
+    const jcal_tangent_t t = jcal_sphere_tangent(v);
+    return jcal_sphere_move(v, &t, 4.0f * JCAL_RAD_PER_DEG, 0.0f);
+}
+
+static void an_axis_on_which_the_engines_disagree_is_weak_and_not_ready(void)
+{
+    const motion_t motion = motion_lively(2);
+    run(&engine, &motion, 0, RUN);
+    const jcal_hinge_result_t r = result_of(&engine);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
+    for (int sensor = 0; sensor < 2; ++sensor) {
+        jcal_hinge_window_t copy = engine;
+        copy.axes.j[sensor] = turned_away(copy.axes.j[sensor]);
+        const jcal_hinge_result_t apart = result_of(&copy);
+        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, apart.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, apart.reason);
+        TEST_ASSERT_EQUAL_INT((sensor == 0) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2, apart.weak);
+    }
+    jcal_hinge_window_t other = engine;
+    other.axes.j[1] = jcal_vec3_scale(other.axes.j[1], -1.0f);
+    TEST_ASSERT_EQUAL_INT(JCAL_AMBIGUOUS, result_of(&other).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, result_of(&other).reason);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -223,5 +271,7 @@ int main(void)
     RUN_TEST(every_config_field_out_of_range_is_named);
     RUN_TEST(null_pointers_are_refused_everywhere);
     RUN_TEST(selection_into_too_little_room_is_refused);
+    RUN_TEST(update_makes_room_in_a_full_inbox);
+    RUN_TEST(an_axis_on_which_the_engines_disagree_is_weak_and_not_ready);
     return UNITY_END();
 }

@@ -153,6 +153,26 @@ static void symmetric_numbers_stay_in_their_interval(void)
     TEST_ASSERT_TRUE((low < -0.999f) && (high > 0.999f));
 }
 
+static void a_point_near_the_centre_of_the_ball_is_drawn_again(void)
+{
+    /* Three seeds, found by search, whose first three numbers lie within 0.01 of the centre: their direction would be
+       rough, since they are multiples of 2^-23. */
+    const uint32_t seeds[3] = {4826687u, 5559726u, 7309199u};
+    for (int k = 0; k < 3; ++k) {
+        jcal_rng_t rng = {seeds[k]};
+        jcal_rng_t again = {seeds[k]};
+        const float x = jcal_rng_symmetric(&again);
+        const float y = jcal_rng_symmetric(&again);
+        const float z = jcal_rng_symmetric(&again);
+        TEST_ASSERT_TRUE((x * x) + (y * y) + (z * z) < 1e-4f);
+        const jcal_vec3_t first = jcal_vec3_normalise(jcal_vec3(x, y, z));
+        const jcal_vec3_t v = jcal_rng_unit(&rng);
+        TEST_ASSERT_FLOAT_WITHIN(UNIT_TOL, 1.0f, jcal_vec3_norm(v));
+        TEST_ASSERT_TRUE(jcal_sphere_angle(first, v) > 1e-3f);
+        TEST_ASSERT_TRUE(rng.state != again.state); /* more than three numbers were drawn */
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -166,5 +186,6 @@ int main(void)
     RUN_TEST(random_units_have_length_one_and_no_preferred_direction);
     RUN_TEST(random_numbers_follow_from_the_seed_alone);
     RUN_TEST(symmetric_numbers_stay_in_their_interval);
+    RUN_TEST(a_point_near_the_centre_of_the_ball_is_drawn_again);
     return UNITY_END();
 }
