@@ -102,6 +102,20 @@ static void a_hint_decides_the_pairing_even_against_the_data(void)
     }
 }
 
+static void a_hint_that_the_data_contradict_is_never_ready(void)
+{
+    for (int same = 0; same < 2; ++same) {
+        const motion_t motion = paired(same == 1);
+        config.sign_hint = (same == 1) ? JCAL_SIGN_OPPOSITE : JCAL_SIGN_SAME;
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_init(&engine, &config));
+        for (uint32_t k = 0; k < 3u * RUN; ++k) {
+            run(&engine, &motion, k, k + 1);
+            TEST_ASSERT_NOT_EQUAL(JCAL_READY, result_of(&engine).status);
+        }
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, result_of(&engine).reason);
+    }
+}
+
 static jcal_imu_t turned(const jcal_imu_t *imu, jcal_quat_t q)
 {
     const jcal_imu_t out = {jcal_quat_rotate(q, imu->gyr_rad_s), jcal_quat_rotate(q, imu->acc_m_s2)};
@@ -187,6 +201,7 @@ int main(void)
     RUN_TEST(the_largest_component_of_axis1_is_positive_and_axes_are_unit);
     RUN_TEST(either_pairing_is_found_without_a_hint_and_kept_with_the_right_one);
     RUN_TEST(a_hint_decides_the_pairing_even_against_the_data);
+    RUN_TEST(a_hint_that_the_data_contradict_is_never_ready);
     RUN_TEST(turning_the_frame_of_sensor_1_turns_axis1_alone);
     RUN_TEST(exchanging_the_sensors_exchanges_the_axes);
     RUN_TEST(gyroscope_and_accelerometer_biases_are_taken_up);

@@ -169,7 +169,8 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
         return JCAL_REASON_UNCERTAIN;
     }
     const bool hinted = self->cfg.sign_hint != JCAL_SIGN_UNKNOWN;
-    if (hinted && !jcal_hinge_obeys(&self->point, self->cfg.sign_hint)) {
+    const bool contradicted = (sign->evidence < -SIGN_EVIDENCE_MIN) && (sign->margin < (1.0f / SIGN_MARGIN_MIN));
+    if (hinted && (contradicted || !jcal_hinge_obeys(&self->point, self->cfg.sign_hint))) {
         return JCAL_REASON_SIGN_OPEN; /* the data insist on the pairing that the user excludes */
     }
     if (!hinted && !((sign->evidence > SIGN_EVIDENCE_MIN) && (sign->margin > SIGN_MARGIN_MIN))) {
