@@ -24,7 +24,7 @@
 #define BLOCK_SHARE 0.05f
 #define SCORES 4u
 
-/// cos 15 deg: an axis that moved further makes its earlier scores useless.
+/// cos 20 deg: an axis that moved further makes its earlier scores useless.
 #define ANCHOR_COSINE 0.9396926f
 
 /// Shortest base of the difference quotient of the rates, s, and the longest across which it still means something.

@@ -74,12 +74,6 @@ jcal_hinge_window_config_t jcal_hinge_window_config_default(void)
     return config;
 }
 
-/* NaN is outside of every range. */
-static bool within(float value, float low, float high)
-{
-    return (value >= low) && (value <= high);
-}
-
 const char *jcal_hinge_window_config_check(const jcal_hinge_window_config_t *config)
 {
     const char *wrong = jcal_hinge_config_check(&config->hinge);
@@ -88,14 +82,14 @@ const char *jcal_hinge_window_config_check(const jcal_hinge_window_config_t *con
     }
     wrong = ((config->n_max < 20u) || (config->n_max > 10000u)) ? "n_max" : wrong;
     wrong = (config->half_window > 100u) ? "half_window" : wrong;
-    wrong = within(config->w0, 1e-3f, 1e10f) ? wrong : "w0";
-    wrong = (within(config->energy_max_rad2_s2, 0.0f, 1e4f) && (config->energy_max_rad2_s2 > 0.0f))
+    wrong = jcal_within(config->w0, 1e-3f, 1e10f) ? wrong : "w0";
+    wrong = (jcal_within(config->energy_max_rad2_s2, 0.0f, 1e4f) && (config->energy_max_rad2_s2 > 0.0f))
                 ? wrong
                 : "energy_max_rad2_s2";
     wrong = (config->acc_min > 10000u) ? "acc_min" : wrong;
-    wrong = within(config->accept_bound_rad, 0.001f, 0.5f) ? wrong : "accept_bound_rad";
+    wrong = jcal_within(config->accept_bound_rad, 0.001f, 0.5f) ? wrong : "accept_bound_rad";
     wrong = ((config->accept_count < 1u) || (config->accept_count > 100u)) ? "accept_count" : wrong;
-    wrong = within(config->solve_period_s, 0.1f, 60.0f) ? wrong : "solve_period_s";
+    wrong = jcal_within(config->solve_period_s, 0.1f, 60.0f) ? wrong : "solve_period_s";
     return wrong;
 }
 

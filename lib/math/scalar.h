@@ -4,6 +4,7 @@
 #ifndef JCAL_SCALAR_H
 #define JCAL_SCALAR_H
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -21,6 +22,12 @@ static inline float jcal_max(float a, float b)
 static inline float jcal_min(float a, float b)
 {
     return (a < b) ? a : b;
+}
+
+/// True if low <= value <= high; NaN is outside of every range.
+static inline bool jcal_within(float value, float low, float high)
+{
+    return (value >= low) && (value <= high);
 }
 
 /// Natural logarithm of a positive, normal number; relative error below 1e-6, absolute error below 1e-7 near 1.

@@ -4,6 +4,7 @@
 #include "jointcal/gate.h"
 
 #include "jointcal/vec3.h"
+#include "math/scalar.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -40,23 +41,18 @@ jcal_gate_config_t jcal_gate_config_default(void)
     return config;
 }
 
-static bool within(float value, float low, float high)
-{
-    return (value >= low) && (value <= high);
-}
-
 const char *jcal_gate_config_check(const jcal_gate_config_t *config)
 {
-    if (!within(config->gyr_max_rad_s, 1.0f, 200.0f)) {
+    if (!jcal_within(config->gyr_max_rad_s, 1.0f, 200.0f)) {
         return "gate.gyr_max_rad_s";
     }
-    if (!within(config->acc_max_m_s2, 20.0f, 4000.0f)) {
+    if (!jcal_within(config->acc_max_m_s2, 20.0f, 4000.0f)) {
         return "gate.acc_max_m_s2";
     }
-    if (!within(config->frozen_s, 0.02f, 10.0f)) {
+    if (!jcal_within(config->frozen_s, 0.02f, 10.0f)) {
         return "gate.frozen_s";
     }
-    if (!within(config->gap_s, 0.02f, 10.0f)) {
+    if (!jcal_within(config->gap_s, 0.02f, 10.0f)) {
         return "gate.gap_s";
     }
     return NULL;
@@ -149,7 +145,7 @@ static void remember(jcal_gate_sensor_t *sensor, const float now[6])
 
 static bool acc_looks_wrong(const jcal_gate_sensor_t *sensor)
 {
-    return !within(sensor->gravity_m_s2, GRAVITY_MIN_M_S2, GRAVITY_MAX_M_S2);
+    return !jcal_within(sensor->gravity_m_s2, GRAVITY_MIN_M_S2, GRAVITY_MAX_M_S2);
 }
 
 static bool gyr_looks_wrong(const jcal_gate_sensor_t *sensor)
