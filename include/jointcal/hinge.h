@@ -68,25 +68,24 @@ typedef struct {
     /// longer duration. Range [0, 5], default 1.
     float lever_arm_m;
     float gyr_bias_rad_s;        ///< Standard deviation of each component of a gyroscope's bias, rad/s.
-                                 ///< Range [1e-5, 0.2], default 0.01 (0.6 deg/s). 1e-5 turns the bias states off.
+                                 ///< Range [1e-5, 0.2], default 0.007 (0.4 deg/s). 1e-5 turns the bias states off.
     float acc_bias_m_s2;         ///< The same of an accelerometer, m/s^2. Range [1e-4, 5], default 0.5.
     jcal_sign_hint_t sign_hint;  ///< Default JCAL_SIGN_UNKNOWN.
 } jcal_hinge_config_t;
 
 /// Number of features of the gyroscope residual; lib/calib/hinge_model.h says which.
-#define JCAL_HINGE_FEATURES 19
+#define JCAL_HINGE_FEATURES 12
 
 /// Private: weighted sums over all samples, packed symmetric.
 typedef struct {
-    float gyr[190];  ///< 19 x 19: products of the gyroscope features.
-    float acc[28];   ///< 7 x 7: products of (a1, -a2, 1).
+    float gyr[78];  ///< 12 x 12: products of the gyroscope features.
+    float acc[28];  ///< 7 x 7: products of (a1, -a2, 1).
 } jcal_hinge_moments_t;
 
-/// Private: one axis, a direction across it, and the part of the gyroscope's bias across it.
+/// Private: one axis and a direction across it.
 typedef struct {
     jcal_vec3_t j;
     jcal_vec3_t u;
-    jcal_vec3_t bias;
 } jcal_hinge_axis_t;
 
 /// Private: a point of the parameter space.
@@ -95,57 +94,68 @@ typedef struct {
     jcal_hinge_axis_t axis2;
 } jcal_hinge_point_t;
 
-/// Private: how the gradient of one axis scatters, from which its bound is made.
-typedef struct {
-    jcal_vec3_t anchor;        ///< Axis at which the sums began; far from it they begin anew.
-    float fine[5];             ///< Score of the current fine block: axis u, v, bias u, v, second order.
-    float coarse[5];           ///< The same of the current coarse block.
-    float fine_scatter[10];    ///< Sum of score score' over fine blocks, packed 4 x 4.
-    float scatter[10];         ///< The same over coarse blocks.
-    float fine_second;         ///< Sum of squared second-order scores over fine blocks.
-    float second;              ///< The same over coarse blocks.
-    float information;         ///< Information that these sums cover.
-    float information2;        ///< Sum of the squared information of each coarse block.
-    float coarse_information;  ///< Information in the current coarse block.
-    float information_all;     ///< Information of all samples.
-    float fine_s;              ///< Time in the current fine block.
-    float coarse_s;            ///< Time in the current coarse block.
-    float time_s;              ///< Time that these sums cover.
-} jcal_hinge_scatter_t;
-
-/// Private: sums at the running estimate: how well it fits, how the sign pairings compare.
-typedef struct {
-    jcal_hinge_scatter_t axis1;
-    jcal_hinge_scatter_t axis2;
-    float fit_time_s;     ///< Time that the sums of the fit cover.
-    float across_error2;  ///< Integral of (|w1 x j1| - |w2 x j2|)^2.
-    float across_rate2;   ///< Integral of (|w1 x j1|^2 + |w2 x j2|^2) / 2.
-    float difference2;    ///< Integral of (|w1| - |w2|)^2.
-    float noise_sum;      ///< Weighted sum of (|w1 x j1| - |w2 x j2|)^2 ...
-    float noise_weight;   ///< ... and of its weights.
-    float pair_acc;       ///< Sum of accelerometer weights ...
-    float pair_acc2;      ///< ... and of their squares per second.
-    float turn_same;      ///< Cost of this pairing in the rate at which the rate across the axis turns about it.
-    float turn_other;     ///< The same of the other pairing.
-    float turn_time_s;    ///< Time for which that rate said something.
-    /// Integral of the squared difference of |w1| and |w2| beyond what errors make; never restarted.
-    float excitation;
-    jcal_vec3_t before1;  ///< Earlier rates for the difference quotient.
-    jcal_vec3_t before2;
-    float before_s;  ///< Their age; negative: there are none.
-} jcal_hinge_evidence_t;
-
 /// Private: a point without its tangent directions.
 typedef struct {
     jcal_vec3_t j1, j2;
-    jcal_vec3_t bias1, bias2;
 } jcal_hinge_place_t;
+
+/// Private: one sensor's rate, less its bias, in the directions of its axis.
+typedef struct {
+    jcal_plane_t across;  ///< Along u and v.
+    float along;          ///< Along j.
+} jcal_hinge_view_t;
+
+/// Private: sums of the current block; lib/calib/hinge_refine.h has the equations.
+typedef struct {
+    float matrix[45];          ///< Packed 9 x 9: tilts of axis 1, of axis 2, biases of sensor 1, of sensor 2, phase.
+    float gradient[9];         ///< Half the gradient in the same unknowns.
+    float acc_score[4];        ///< Half the gradient of the accelerometer part.
+    float power2;              ///< Weighted sum of |z2|^2; that of |z1|^2 is in the matrix.
+    float units;               ///< Time in units of one reading.
+    float time_s;              ///< Time in the block.
+    jcal_plane_t match;        ///< How z1, turned, matches z2.
+    jcal_plane_t match_other;  ///< The same for the other sign pairing.
+    jcal_plane_t turn_other;   ///< exp(-i theta) of the other pairing.
+    jcal_plane_t path1;        ///< Integral of z1 since the block began.
+    jcal_plane_t path2;
+} jcal_hinge_block_t;
+
+/// Private: the refined axes and the sums that they rest on.
+typedef struct {
+    jcal_hinge_point_t point;   ///< The axes.
+    jcal_hinge_place_t anchor;  ///< Where they were when the sums began.
+    float bias[4];              ///< Biases of the gyroscopes along u1, v1, u2, v2, in standard deviations.
+    jcal_hinge_block_t block;
+    jcal_hinge_view_t last1;  ///< The previous sample.
+    jcal_hinge_view_t last2;
+    jcal_plane_t phase;  ///< p exp(-i theta): turns z1 into z2.
+    float phase_weight;  ///< How well it is known from earlier blocks; 0: not at all.
+    float matrix[36];    ///< Packed 8 x 8, all blocks, phases eliminated.
+    float gradient[8];   ///< Half the gradient at `point`.
+    float gain[4][4];    ///< What a bias of one unit moves the tilts' gradient by, biases eliminated.
+    float scatter[10];   ///< Sum of score score' over blocks, biases eliminated.
+    float lean[4];       ///< Sum of the scores, each times its block's information.
+    float information;   ///< Sum of the blocks' information, the trace of the tilts' part ...
+    float information2;  ///< ... and of its squares.
+    float cost;          ///< Sum of the squared residuals, in units of the assumed noise.
+    float units;         ///< Readings that went in.
+    float joint;         ///< Sum of the joint's own squared rate, in the units of the cost ...
+    float along[2];      ///< ... of that along each axis ...
+    float lever[2];      ///< ... of its magnitude times that of both rates ...
+    float across;        ///< ... and of that across the axes, mean of both.
+    float blocks;        ///< How many blocks.
+    float time_s;        ///< Time that they cover.
+    float same;          ///< Residual of this sign pairing, as a share of what could match, integrated over time ...
+    float other;         ///< ... of the other pairing ...
+    float sign_time_s;   ///< ... and the time for which there was something to match.
+    bool has_last;
+} jcal_hinge_refine_t;
 
 /// Private: where the search for other minima stands.
 typedef struct {
     jcal_hinge_place_t probe;  ///< Where the probe is.
     jcal_hinge_place_t rival;  ///< Best other minimum.
-    jcal_vec3_t flip1, flip2;  ///< Best axes of the other sign pairing, with the biases of the estimate.
+    jcal_hinge_place_t flip;   ///< Best axes of the other sign pairing.
     float damping;
     uint8_t rounds;      ///< Complete rounds over all starts since the joint first moved.
     uint8_t start;       ///< Which start the probe came from.
@@ -168,18 +178,22 @@ typedef struct {
     jcal_gate_t gate;
     jcal_inbox_t inbox;
     jcal_hinge_moments_t moments;
-    jcal_hinge_evidence_t evidence;
-    jcal_hinge_point_t point;
+    jcal_hinge_point_t point;  ///< Minimum of the moments: where the refined axes begin.
+    jcal_hinge_refine_t refine;
     jcal_hinge_search_t search;
     jcal_hinge_verdict_t verdict;
     jcal_vec3_t rest_acc1;  ///< Specific forces at which the present dwelling began ...
     jcal_vec3_t rest_acc2;
-    float dwell_s;            ///< ... and how long it has lasted.
-    float rate_product;       ///< Low-passed |w1| |w2|.
+    float dwell_s;       ///< ... and how long it has lasted.
+    float rest_s;        ///< How long neither sensor has turned.
+    float rate_product;  ///< Low-passed |w1| |w2|.
+    float weight_acc;    ///< Sum of accelerometer weights ...
+    float weight_acc2;   ///< ... and of their squares per second.
+    float motion;        ///< Integral of the squared rates: what the sums are limited by.
+    /// Integral of the squared difference of |w1| and |w2| beyond what errors make.
+    float excitation;
     float acc_constant_m_s2;  ///< Estimate of c = j1 . b_a1 - j2 . b_a2.
     float damping;
-    /// Length of the last step of each axis: how far the estimate may be from its minimum.
-    float moved_rad[2];
     float credit_s;  ///< Time not yet paid for with slices of work.
     uint64_t last_us;
     uint8_t slice;   ///< Next slice of the cycle.

@@ -3,10 +3,10 @@
 /// Stream engine of the hinge: config, samples into sums, and the schedule of the work. Method: docs/METHOD.md.
 #include "jointcal/hinge.h"
 
-#include "calib/hinge_evidence.h"
 #include "calib/hinge_judge.h"
 #include "calib/hinge_model.h"
 #include "calib/hinge_point.h"
+#include "calib/hinge_refine.h"
 #include "calib/hinge_search.h"
 #include "calib/hinge_stream.h"
 #include "jointcal/vec3.h"
@@ -28,9 +28,6 @@
 /// Keeps the weight 1 / (|w1|^2 + |w2|^2 + eps) finite at rest, (rad/s)^2; docs/METHOD.md section 2.
 #define RATE_EPS 0.05f
 
-/// Age of earlier rates that there are not: more than any that counts, s.
-#define NO_EARLIER_RATES_S 1.0f
-
 /// Time constant of the product of the rates, s.
 #define PRODUCT_TIME_S 0.2f
 
@@ -38,14 +35,23 @@
 /// this, (m/s^2)^2.
 #define DWELL_ACC2 1.0f
 
-/// Sums are halved when they reach this: half an hour at 1 rad/s, four minutes at 3 rad/s. One more sample then changes a sum by
-/// 2^-17 of itself, a hundred times what float32 resolves.
-#define INFORMATION_MAX 5e7f
+/// Rest: both rates below this, squared sum, (rad/s)^2. Its weight falls like 1 / (1 + t^2), so that a rest of any length counts as
+/// 1.6 s; after REST_MAX_S the refined axes leave it out too.
+#define REST_RATE2 0.02f
+#define REST_MAX_S 1.0f
+
+/// Errors in |w1| - |w2| that no joint motion causes: scale errors as a share of the rate, and noise, rad/s.
+#define DIFFERENCE_SHARE 0.03f
+#define DIFFERENCE_NOISE_RAD_S 0.02f
+
+/// Sums are halved when they reach this: half an hour at 1 rad/s, four minutes at 3 rad/s, rad^2/s. One more sample then changes a
+/// sum by 2^-17 of itself, a hundred times what float32 resolves.
+#define MOTION_MAX 3600.0f
 #define ACC_WEIGHT_MAX 2e4f
 
 /// One slice of work is paid for by this much time, so that the work per second does not depend on the rate.
-#define SLICE_S 0.01f
-#define SLICES_MAX 5u
+#define SLICE_S 0.005f
+#define SLICES_MAX 10u
 #define SLICES_PER_CYCLE 8u
 #define SETTLED_ROUNDS 4u
 
@@ -60,7 +66,7 @@ jcal_hinge_config_t jcal_hinge_config_default(void)
     config.gyr_noise_rad_s = 0.03f;
     config.acc_noise_m_s2 = 1.5f;
     config.lever_arm_m = 1.0f;
-    config.gyr_bias_rad_s = 0.01f;
+    config.gyr_bias_rad_s = 0.007f;
     config.acc_bias_m_s2 = 0.5f;
     config.sign_hint = JCAL_SIGN_UNKNOWN;
     return config;
@@ -101,7 +107,6 @@ void jcal_hinge_start(jcal_hinge_t *self, const jcal_hinge_config_t *config)
     self->cfg = cfg;
     jcal_gate_init(&self->gate);
     self->damping = JCAL_GN_DAMPING_START;
-    self->evidence.before_s = NO_EARLIER_RATES_S;
     self->verdict.bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
     self->verdict.bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
     self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
@@ -169,29 +174,56 @@ static jcal_hinge_sample_t weigh(jcal_hinge_t *self, const jcal_pair_t *pair, fl
     sample.w1_2 = jcal_vec3_dot(sample.w1, sample.w1);
     sample.w2_2 = jcal_vec3_dot(sample.w2, sample.w2);
     sample.dt_s = dt_s;
-    const float noise = self->cfg.gyr_noise_rad_s;
-    sample.gyr_weight = (dt_s / JCAL_HINGE_UNIT_S) / (noise * noise * (sample.w1_2 + sample.w2_2 + RATE_EPS));
     sample.acc_weight = acc_weight(self, &sample);
     return sample;
 }
 
+/// Sums that limit or gate all others.
+static void watch(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+{
+    const float difference = fabsf(sqrtf(sample->w1_2) - sqrtf(sample->w2_2));
+    const float errors = (DIFFERENCE_SHARE * sqrtf(jcal_max(sample->w1_2, sample->w2_2))) + DIFFERENCE_NOISE_RAD_S;
+    const float excess = jcal_max(difference - errors, 0.0f);
+    self->excitation += sample->dt_s * excess * excess;
+    self->motion += sample->dt_s * (sample->w1_2 + sample->w2_2);
+    self->weight_acc += sample->acc_weight;
+    self->weight_acc2 += sample->acc_weight * sample->acc_weight / sample->dt_s;
+    self->rest_s = ((sample->w1_2 + sample->w2_2) < REST_RATE2) ? (self->rest_s + sample->dt_s) : 0.0f;
+}
+
+/// Halves all sums: nothing saturates, and old data count less.
+static void halve(jcal_hinge_t *self)
+{
+    jcal_sym_scale(self->moments.gyr, JCAL_HINGE_FEATURES, 0.5f);
+    jcal_sym_scale(self->moments.acc, 7u, 0.5f);
+    jcal_hinge_refine_fade(&self->refine, 0.5f);
+    self->excitation *= 0.5f;
+    self->motion *= 0.5f;
+    self->weight_acc *= 0.5f;
+    self->weight_acc2 *= 0.5f;
+}
+
 static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
 {
+    watch(self, sample);
+    const float noise = self->cfg.gyr_noise_rad_s;
+    const float gyr_weight =
+        (sample->dt_s / JCAL_HINGE_UNIT_S) /
+        (noise * noise * (sample->w1_2 + sample->w2_2 + RATE_EPS) * (1.0f + (self->rest_s * self->rest_s)));
     float z[JCAL_HINGE_FEATURES];
     jcal_hinge_features(sample->w1, sample->w2, z);
-    jcal_sym_rank1(self->moments.gyr, JCAL_HINGE_FEATURES, z, sample->gyr_weight);
+    jcal_sym_rank1(self->moments.gyr, JCAL_HINGE_FEATURES, z, gyr_weight);
     const float y[7] = {sample->a1.x, sample->a1.y, sample->a1.z, -sample->a2.x, -sample->a2.y, -sample->a2.z, 1.0f};
     jcal_sym_rank1(self->moments.acc, 7u, y, sample->acc_weight);
-    jcal_hinge_evidence_watch(&self->evidence, sample);
-    if (self->has_point) {
-        jcal_hinge_evidence_add(&self->evidence, &self->point, self->acc_constant_m_s2, self->cfg.gyr_bias_rad_s,
-                                sample);
+    if (self->rest_s >= REST_MAX_S) {
+        jcal_hinge_refine_interrupt(&self->refine);
+    } else if (self->has_point) {
+        jcal_hinge_refine_add(self, sample);
+    } else {
+        /* nothing to refine yet */
     }
-    const float information = self->evidence.axis1.information_all + self->evidence.axis2.information_all;
-    if ((information > INFORMATION_MAX) || (self->moments.acc[jcal_sym_at(6u, 6u)] > ACC_WEIGHT_MAX)) {
-        jcal_sym_scale(self->moments.gyr, JCAL_HINGE_FEATURES, 0.5f);
-        jcal_sym_scale(self->moments.acc, 7u, 0.5f);
-        jcal_hinge_evidence_halve(&self->evidence);
+    if ((self->motion > MOTION_MAX) || (self->moments.acc[jcal_sym_at(6u, 6u)] > ACC_WEIGHT_MAX)) {
+        halve(self);
     }
 }
 
@@ -228,7 +260,7 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
         return;
     }
     if (since_s > STEP_MAX_S) {
-        self->evidence.before_s = NO_EARLIER_RATES_S; /* no difference quotient across a hole */
+        jcal_hinge_refine_interrupt(&self->refine);
     }
     const float dt_s = jcal_min(since_s, STEP_MAX_S);
     const jcal_hinge_sample_t sample = weigh(self, pair, dt_s);
@@ -298,9 +330,9 @@ jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
     tell_verdict(self, &result);
     result.has_axes = self->has_point;
     if (self->has_point) {
-        const float sign = jcal_hinge_main_sign(self->point.axis1.j);
-        result.axis1 = jcal_vec3_scale(self->point.axis1.j, sign);
-        result.axis2 = jcal_vec3_scale(self->point.axis2.j, sign);
+        const float sign = jcal_hinge_main_sign(self->refine.point.axis1.j);
+        result.axis1 = jcal_vec3_scale(self->refine.point.axis1.j, sign);
+        result.axis2 = jcal_vec3_scale(self->refine.point.axis2.j, sign);
     }
     result.t_us = self->last_us;
     result.samples = self->gate.samples;

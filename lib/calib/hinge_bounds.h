@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// 95 % bounds of the two axes, from the moments and the scatter of the gradient. Private. docs/METHOD.md, section 5.
+/// 95 % bounds of the two axes. Private. Method: docs/METHOD.md section 5.
 #ifndef JCAL_HINGE_BOUNDS_H
 #define JCAL_HINGE_BOUNDS_H
 
-#include "calib/hinge_model.h"
 #include "jointcal/hinge.h"
 
 /// What a judgement rests on.
@@ -15,7 +14,7 @@ typedef struct {
     float inflation;
 } jcal_hinge_bounds_t;
 
-/// Bounds at the estimate; `lin` is the linearised cost there. False if there is not enough data for a statement.
-bool jcal_hinge_bounds(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin, jcal_hinge_bounds_t *out);
+/// Bounds of the refined axes. False if there is not enough data for a statement.
+bool jcal_hinge_bounds(const jcal_hinge_t *self, jcal_hinge_bounds_t *out);
 
 #endif /* JCAL_HINGE_BOUNDS_H */

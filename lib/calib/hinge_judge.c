@@ -6,12 +6,10 @@
 #include "calib/hinge_bounds.h"
 #include "calib/hinge_model.h"
 #include "calib/hinge_point.h"
+#include "calib/hinge_refine.h"
 #include "calib/hinge_search.h"
-#include "jointcal/vec3.h"
 #include "math/scalar.h"
-#include "math/sym.h"
 
-#include <float.h>
 #include <math.h>
 
 /// Integral of the squared difference of the rates, beyond what errors make, that shows that the joint moves, rad^2/s:
@@ -19,15 +17,17 @@
 #define EXCITATION_MIN 0.03f
 
 /// The disagreement across the axis must be small beside the difference of the rates, or no hinge explains the data.
-#define MISFIT_SHARE 0.25f
+#define MISFIT_SHARE 0.35f
 #define MISFIT_NOISE_RAD_S 0.02f
 
 /// Durations after which residuals count as independent, s, when the pairings are compared.
 #define ACC_MEMORY_S 0.3f
-#define TURN_MEMORY_S 0.1f
+#define TURN_MEMORY_S 0.2f
 /// Logarithm of the odds that the sign pairing needs, and the ratio of costs, and limits of a believable ratio.
 #define SIGN_EVIDENCE_MIN 7.0f
 #define SIGN_MARGIN_MIN 1.3f
+/// Evidence at which the other pairing takes over.
+#define SIGN_EVIDENCE_TURN (-1.0f)
 #define RATIO_MIN 1e-3f
 #define RATIO_MAX 1e6f
 
@@ -39,11 +39,11 @@
 /// Entering `ready` takes bounds below this share of the limit, staying there the limit itself.
 #define ENTER_SHARE 0.98f
 
-/// Motion counts as planar if the power of the rate across the axis is below this share of that along it: 8 deg.
-#define PLANAR_SHARE 0.02f
-
 /// Judgements in a row, one each 80 ms, that must agree before `ready`.
-#define AGREED_MIN 4u
+#define AGREED_MIN 6u
+
+/// Rounds of the global check, half a second each, after which the axes should have been found.
+#define ROUNDS_MANY 16u
 
 /// How the two sign pairings compare.
 typedef struct {
@@ -57,47 +57,23 @@ static float ratio_of(float other, float same)
 }
 
 /// With unknown noise, N independent residuals whose sum of squares is r times larger speak with the odds r^(N / 2).
-static sign_t compare_signs(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin)
+static sign_t compare_signs(const jcal_hinge_t *self)
 {
     sign_t sign = {0.0f, 0.0f};
     if (!self->search.has_flip && (self->search.rounds == 0u)) {
         return sign;
     }
-    const jcal_hinge_evidence_t *const evidence = &self->evidence;
-    jcal_hinge_point_t flip = self->point;
-    if (self->search.has_flip) {
-        jcal_hinge_axis_set(&flip.axis1, self->search.flip1);
-        jcal_hinge_axis_set(&flip.axis2, self->search.flip2);
-    } else { /* the other pairing has no minimum near these lines; one elsewhere is a rival */
-        jcal_hinge_axis_set(&flip.axis2, jcal_vec3_scale(self->point.axis2.j, -1.0f));
-    }
+    const jcal_hinge_refine_t *const refine = &self->refine;
+    const jcal_hinge_point_t flip = jcal_hinge_flipped(self);
+    const float acc_same = jcal_hinge_cost_acc(&self->moments, &self->cfg, &self->point);
     const float acc_other = jcal_hinge_cost_acc(&self->moments, &self->cfg, &flip);
-    const float gyr_other = jcal_hinge_cost_gyr(&self->moments, &flip);
-    const float acc_time_s = (evidence->pair_acc * evidence->pair_acc) / jcal_max(evidence->pair_acc2, 1e-20f);
-    const float acc_odds = (acc_time_s / ACC_MEMORY_S) * jcal_ln(ratio_of(acc_other, lin->cost_acc));
-    const float turn_odds =
-        (evidence->turn_time_s / TURN_MEMORY_S) * jcal_ln(ratio_of(evidence->turn_other, evidence->turn_same));
+    const float acc_time_s = (self->weight_acc * self->weight_acc) / jcal_max(self->weight_acc2, 1e-20f);
+    const float acc_odds = (acc_time_s / ACC_MEMORY_S) * jcal_ln(ratio_of(acc_other, acc_same));
+    const float turn_odds = (refine->sign_time_s / TURN_MEMORY_S) * jcal_ln(ratio_of(refine->other, refine->same));
+    const float turn_scale = refine->units / jcal_max(refine->time_s, 1e-9f);
     sign.evidence = 0.5f * (acc_odds + turn_odds);
-    sign.margin = (acc_other + gyr_other + evidence->turn_other) /
-                  jcal_max(lin->cost_acc + lin->cost_gyr + evidence->turn_same, 1e-20f);
+    sign.margin = (acc_other + (turn_scale * refine->other)) / jcal_max(acc_same + (turn_scale * refine->same), 1e-20f);
     return sign;
-}
-
-/// True if one sensor turns about nearly one line, and that line is not the estimated axis.
-///
-/// In such motion the residual is of fourth order in a tilt, and a tilt together with biases can make a well of its
-/// own beside the true one. The line itself, the principal direction of the rates, is then the other explanation.
-static bool avoids_principal_line(const jcal_hinge_t *self, const jcal_hinge_axis_t *axis, unsigned first)
-{
-    const float *const sums = &self->moments.gyr[jcal_sym_at(JCAL_HINGE_Z_ONE, first)]; /* xx, yy, zz, xy, xz, yz */
-    const jcal_vec3_t j = axis->j;
-    const jcal_vec3_t image = {(sums[0] * j.x) + (sums[3] * j.y) + (sums[4] * j.z),
-                               (sums[3] * j.x) + (sums[1] * j.y) + (sums[5] * j.z),
-                               (sums[4] * j.x) + (sums[5] * j.y) + (sums[2] * j.z)};
-    const float along = jcal_vec3_dot(j, image);
-    const float across = (sums[0] + sums[1] + sums[2]) - along;
-    const float tilt = jcal_vec3_norm(jcal_hinge_across(j, image)) / jcal_max(along, FLT_MIN);
-    return (across < (PLANAR_SHARE * along)) && (tilt > self->cfg.max_bound_rad);
 }
 
 /// True if another minimum explains the data about as well, or if not all starts have been tried yet.
@@ -106,12 +82,10 @@ static bool has_rival(const jcal_hinge_t *self, float cost, float inflation)
     if (self->search.rounds == 0u) {
         return true;
     }
-    if (avoids_principal_line(self, &self->point.axis1, JCAL_HINGE_Z_W1W1) ||
-        avoids_principal_line(self, &self->point.axis2, JCAL_HINGE_Z_W2W2)) {
-        return true;
-    }
     const jcal_hinge_place_t *const rival = &self->search.rival;
-    if (!self->search.has_rival || jcal_hinge_same_lines(&self->point, rival->j1, rival->j2)) {
+    jcal_hinge_point_t there = self->point;
+    jcal_hinge_point_set(&there, rival->j1, rival->j2);
+    if (!self->search.has_rival || jcal_hinge_same_lines(&self->point, &there)) {
         return false;
     }
     const float other = jcal_hinge_cost_of_rival(self);
@@ -119,13 +93,14 @@ static bool has_rival(const jcal_hinge_t *self, float cost, float inflation)
     return !(much_worse && (other > (RIVAL_RATIO_MIN * cost)));
 }
 
-/// True if the rates across the estimated axes agree as those of a hinge do.
-static bool fits(const jcal_hinge_evidence_t *evidence)
+/// True if what remains of the rates is small beside the joint's own rate.
+static bool fits(const jcal_hinge_t *self)
 {
-    const float time_s = jcal_max(evidence->fit_time_s, 1e-9f);
-    const float error = sqrtf(evidence->across_error2 / time_s);
-    const float difference = sqrtf(evidence->difference2 / time_s);
-    return error < ((MISFIT_SHARE * difference) + MISFIT_NOISE_RAD_S);
+    const float unit = self->cfg.gyr_noise_rad_s * self->cfg.gyr_noise_rad_s;
+    const float units = jcal_max(self->refine.units, 1e-9f);
+    const float error = sqrtf(unit * self->refine.cost / units);
+    const float joint = sqrtf(unit * self->refine.joint / units);
+    return error < ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S);
 }
 
 static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
@@ -157,10 +132,10 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
     if (complaint != JCAL_REASON_NONE) {
         return complaint;
     }
-    if (self->evidence.excitation < EXCITATION_MIN) {
+    if (self->excitation < EXCITATION_MIN) {
         return JCAL_REASON_NO_MOTION;
     }
-    if (!fits(&self->evidence)) {
+    if (!fits(self)) {
         return JCAL_REASON_DOES_NOT_FIT;
     }
     const float limit_rad = (self->verdict.status == (uint8_t)JCAL_READY) ? self->cfg.max_bound_rad
@@ -170,14 +145,15 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
     }
     const bool hinted = self->cfg.sign_hint != JCAL_SIGN_UNKNOWN;
     const bool contradicted = (sign->evidence < -SIGN_EVIDENCE_MIN) && (sign->margin < (1.0f / SIGN_MARGIN_MIN));
-    if (hinted && (contradicted || !jcal_hinge_obeys(&self->point, self->cfg.sign_hint))) {
+    if (hinted && (contradicted || !jcal_hinge_obeys(&self->refine.point, self->cfg.sign_hint))) {
         return JCAL_REASON_SIGN_OPEN; /* the data insist on the pairing that the user excludes */
     }
     if (!hinted && !((sign->evidence > SIGN_EVIDENCE_MIN) && (sign->margin > SIGN_MARGIN_MIN))) {
         return JCAL_REASON_SIGN_OPEN;
     }
-    return has_rival(self, jcal_hinge_cost(self, &self->point), bounds->inflation) ? JCAL_REASON_OTHER_MINIMUM
-                                                                                   : JCAL_REASON_NONE;
+    return has_rival(self, jcal_hinge_cost(&self->moments, &self->cfg, &self->point), bounds->inflation)
+               ? JCAL_REASON_OTHER_MINIMUM
+               : JCAL_REASON_NONE;
 }
 
 static jcal_weak_t weak_for(jcal_reason_t reason, const jcal_hinge_bounds_t *bounds)
@@ -213,19 +189,31 @@ static void report(jcal_hinge_t *self, jcal_reason_t found, const jcal_hinge_bou
     verdict->sign_progress = jcal_max(0.0f, jcal_min(1.0f, sign->evidence / SIGN_EVIDENCE_MIN));
 }
 
+/// Why there are no bounds.
+static jcal_reason_t why_nothing_is_known(const jcal_hinge_t *self)
+{
+    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
+    if (complaint != JCAL_REASON_NONE) {
+        return complaint;
+    }
+    if (self->search.rounds < ROUNDS_MANY) {
+        return JCAL_REASON_NO_DATA;
+    }
+    /* There has been plenty: if the segments turned against each other, no joint holds for long. */
+    return (self->excitation < EXCITATION_MIN) ? JCAL_REASON_NO_MOTION : JCAL_REASON_DOES_NOT_FIT;
+}
+
 void jcal_hinge_judge(jcal_hinge_t *self)
 {
     const sign_t nothing = {0.0f, 0.0f};
     jcal_hinge_bounds_t bounds = {JCAL_BOUND_UNKNOWN_RAD, JCAL_BOUND_UNKNOWN_RAD, 0.0f};
-    jcal_hinge_lin_t lin;
-    if (self->has_point) {
-        jcal_hinge_linearise(&self->moments, &self->cfg, &self->point, JCAL_HINGE_UNKNOWNS, &lin);
-    }
-    if (!self->has_point || !jcal_hinge_bounds(self, &lin, &bounds)) {
-        const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
-        report(self, (complaint != JCAL_REASON_NONE) ? complaint : JCAL_REASON_NO_DATA, &bounds, &nothing);
+    if (!self->has_point || !jcal_hinge_bounds(self, &bounds)) {
+        report(self, why_nothing_is_known(self), &bounds, &nothing);
         return;
     }
-    const sign_t sign = compare_signs(self, &lin);
+    const sign_t sign = compare_signs(self);
     report(self, find_reason(self, &bounds, &sign), &bounds, &sign);
+    if ((self->cfg.sign_hint == JCAL_SIGN_UNKNOWN) && (sign.evidence < SIGN_EVIDENCE_TURN)) {
+        jcal_hinge_turn_round(self);
+    }
 }

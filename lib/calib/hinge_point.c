@@ -15,33 +15,41 @@
 
 void jcal_hinge_axis_set(jcal_hinge_axis_t *axis, jcal_vec3_t j)
 {
-    jcal_vec3_t u = jcal_hinge_across(j, axis->u);
+    jcal_vec3_t u = jcal_vec3_sub(axis->u, jcal_vec3_scale(j, jcal_vec3_dot(j, axis->u)));
     if (!(jcal_vec3_norm(u) > TANGENT_MIN)) {
         u = jcal_sphere_tangent(j).u;
     }
     axis->j = j;
     axis->u = jcal_vec3_normalise(u);
-    axis->bias = jcal_hinge_across(j, axis->bias);
 }
 
-static void axis_move(jcal_hinge_axis_t *axis, const float d[2], const float bias_d[2], float bias_unit)
+void jcal_hinge_point_set(jcal_hinge_point_t *point, jcal_vec3_t j1, jcal_vec3_t j2)
+{
+    jcal_hinge_axis_set(&point->axis1, j1);
+    jcal_hinge_axis_set(&point->axis2, j2);
+}
+
+static void axis_move(jcal_hinge_axis_t *axis, float du, float dv)
 {
     const jcal_tangent_t tangent = {axis->u, jcal_hinge_v(axis)};
-    const jcal_vec3_t shift = jcal_sphere_lift(&tangent, bias_unit * bias_d[0], bias_unit * bias_d[1]);
-    axis->bias = jcal_vec3_add(axis->bias, shift);
-    jcal_hinge_axis_set(axis, jcal_sphere_move(axis->j, &tangent, d[0], d[1]));
+    jcal_hinge_axis_set(axis, jcal_sphere_move(axis->j, &tangent, du, dv));
 }
 
-void jcal_hinge_point_move(jcal_hinge_point_t *point, const float d[8], float bias_unit)
+void jcal_hinge_point_move(jcal_hinge_point_t *point, const float d[4])
 {
-    axis_move(&point->axis1, &d[0], &d[4], bias_unit);
-    axis_move(&point->axis2, &d[2], &d[6], bias_unit);
+    axis_move(&point->axis1, d[0], d[1]);
+    axis_move(&point->axis2, d[2], d[3]);
 }
 
-bool jcal_hinge_same_lines(const jcal_hinge_point_t *point, jcal_vec3_t j1, jcal_vec3_t j2)
+bool jcal_hinge_same_lines(const jcal_hinge_point_t *a, const jcal_hinge_point_t *b)
 {
-    return (fabsf(jcal_vec3_dot(point->axis1.j, j1)) > SAME_COSINE) &&
-           (fabsf(jcal_vec3_dot(point->axis2.j, j2)) > SAME_COSINE);
+    return (fabsf(jcal_vec3_dot(a->axis1.j, b->axis1.j)) > SAME_COSINE) &&
+           (fabsf(jcal_vec3_dot(a->axis2.j, b->axis2.j)) > SAME_COSINE);
+}
+
+bool jcal_hinge_same_pairing(const jcal_hinge_point_t *a, const jcal_hinge_point_t *b)
+{
+    return (jcal_vec3_dot(a->axis1.j, b->axis1.j) * jcal_vec3_dot(a->axis2.j, b->axis2.j)) > 0.0f;
 }
 
 float jcal_hinge_main_sign(jcal_vec3_t v)

@@ -10,26 +10,26 @@
 #include "jointcal/hinge.h"
 #include "jointcal/vec3.h"
 
-/// The part of v across the unit vector j.
-static inline jcal_vec3_t jcal_hinge_across(jcal_vec3_t j, jcal_vec3_t v)
-{
-    return jcal_vec3_sub(v, jcal_vec3_scale(j, jcal_vec3_dot(j, v)));
-}
-
 /// Second tangent direction.
 static inline jcal_vec3_t jcal_hinge_v(const jcal_hinge_axis_t *axis)
 {
     return jcal_vec3_cross(axis->j, axis->u);
 }
 
-/// Puts an axis to the unit vector j; u and the bias are carried along across it.
+/// Puts an axis to the unit vector j; u is carried along.
 void jcal_hinge_axis_set(jcal_hinge_axis_t *axis, jcal_vec3_t j);
 
-/// Moves both axes and both biases by d (8), in the order and the units of hinge_model.h.
-void jcal_hinge_point_move(jcal_hinge_point_t *point, const float d[8], float bias_unit);
+/// Puts both axes.
+void jcal_hinge_point_set(jcal_hinge_point_t *point, jcal_vec3_t j1, jcal_vec3_t j2);
+
+/// Moves both axes by d: along u1, v1, u2, v2, rad.
+void jcal_hinge_point_move(jcal_hinge_point_t *point, const float d[4]);
 
 /// True if a and b mean the same axes, whatever their pairing: both lines closer than about 11 deg.
-bool jcal_hinge_same_lines(const jcal_hinge_point_t *point, jcal_vec3_t j1, jcal_vec3_t j2);
+bool jcal_hinge_same_lines(const jcal_hinge_point_t *a, const jcal_hinge_point_t *b);
+
+/// True if a and b have the same sign pairing; both signs turned together mean the same joint.
+bool jcal_hinge_same_pairing(const jcal_hinge_point_t *a, const jcal_hinge_point_t *b);
 
 /// True if the sign pairing is the one that the user's hint names, or if there is no hint.
 bool jcal_hinge_obeys(const jcal_hinge_point_t *point, jcal_sign_hint_t hint);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Follows the best minimum and looks for others. See hinge_search.h.
+/// Follows the best minimum of the moments and looks for others. See hinge_search.h.
 #include "calib/hinge_search.h"
 
-#include "calib/hinge_evidence.h"
 #include "calib/hinge_model.h"
 #include "calib/hinge_point.h"
+#include "calib/hinge_refine.h"
 #include "math/eig.h"
 #include "math/scalar.h"
 #include "math/solve.h"
@@ -13,12 +13,11 @@
 
 #include <math.h>
 
-/// Starts of one round: 3 x 3 eigenvectors, both pairings, and the estimate with axis 2 turned round.
-#define EIGEN_STARTS 18u
-#define STARTS 19u
-/// Steps of a probe with the biases of the estimate, and then with biases of its own.
+/// Starts of one round: 3 x 3 eigenvectors, and the estimate with axis 2 turned round.
+#define EIGEN_STARTS 9u
+#define STARTS 10u
+/// Steps of a probe.
 #define PROBE_STEPS 5u
-#define REFINE_STEPS 2u
 
 /// A change of cost too small to matter, in units of one independent reading; rounding may make a good step look
 /// worse by it.
@@ -33,65 +32,40 @@
 /// cos 3 deg: a probe this near to the estimate, in the same pairing, will end there.
 #define JOINED_COSINE 0.99863f
 
-/// Scales the unknowns first .. last - 1 by one over the root of their largest diagonal element.
-static float group_scale(const float *matrix, size_t first, size_t last)
+/// A damped step d. False if there is none.
+static bool step(const jcal_hinge_lin_t *lin, float *damping, float d[JCAL_HINGE_TILTS], float *predicted)
 {
-    float largest = 0.0f;
-    for (size_t i = first; i < last; ++i) {
-        largest = jcal_max(matrix[jcal_sym_at(i, i)], largest);
-    }
-    return (largest > 0.0f) ? (1.0f / sqrtf(largest)) : 1.0f;
-}
-
-/// A damped step d (8) over the first n unknowns, axes and biases each brought to a common scale. False if there is
-/// none.
-static bool step(const jcal_hinge_lin_t *lin, size_t n, float *damping, float d[8], float *predicted)
-{
-    const float scales[2] = {group_scale(lin->matrix, 0u, 4u), (n > 4u) ? group_scale(lin->matrix, 4u, 8u) : 0.0f};
-    float gradient[JCAL_HINGE_UNKNOWNS];
-    float matrix[36];
-    float scaled[JCAL_HINGE_UNKNOWNS] = {0.0f};
-    for (size_t i = 0u; i < n; ++i) {
-        gradient[i] = lin->gradient[i] * scales[i / 4u];
-        for (size_t k = 0u; k <= i; ++k) {
-            matrix[jcal_sym_at(i, k)] = lin->matrix[jcal_sym_at(i, k)] * scales[i / 4u] * scales[k / 4u];
-        }
-    }
-    const jcal_gn_model_t model = {n, gradient, matrix};
+    const jcal_gn_model_t model = {JCAL_HINGE_TILTS, lin->gradient, lin->matrix};
     jcal_gn_t gn = {*damping};
-    const jcal_status_t status = jcal_gn_step(&gn, &model, scaled, NULL);
+    const jcal_status_t status = jcal_gn_step(&gn, &model, d, NULL);
     *damping = gn.damping;
     if (status != JCAL_OK) {
         return false;
     }
     float longest = 0.0f;
-    for (size_t i = 0u; i < 4u; ++i) {
-        longest = jcal_max(fabsf(scaled[i]) * scales[0], longest);
+    for (size_t i = 0u; i < JCAL_HINGE_TILTS; ++i) {
+        longest = jcal_max(fabsf(d[i]), longest);
     }
     const float shorten = (longest > STEP_MAX_RAD) ? (STEP_MAX_RAD / longest) : 1.0f;
-    for (size_t i = 0u; i < JCAL_HINGE_UNKNOWNS; ++i) {
-        scaled[i] *= shorten;
-        d[i] = scaled[i] * scales[i / 4u];
+    for (size_t i = 0u; i < JCAL_HINGE_TILTS; ++i) {
+        d[i] *= shorten;
     }
-    *predicted = jcal_gn_predict(&model, scaled);
+    *predicted = jcal_gn_predict(&model, d);
     return true;
 }
 
-/// Moves a point by one step over n unknowns if that lowers the cost; `lengths` are those of the steps of both axes,
-/// rad.
-static void descend(const jcal_hinge_t *self, size_t n, jcal_hinge_point_t *point, float *damping, float lengths[2])
+/// Moves a point by one step if that lowers the cost; returns the length of the step, rad.
+static float descend(const jcal_hinge_t *self, jcal_hinge_point_t *point, float *damping)
 {
     jcal_hinge_lin_t lin;
-    float d[JCAL_HINGE_UNKNOWNS];
+    float d[JCAL_HINGE_TILTS];
     float predicted;
-    jcal_hinge_linearise(&self->moments, &self->cfg, point, (unsigned)n, &lin);
-    lengths[0] = STEP_MAX_RAD;
-    lengths[1] = STEP_MAX_RAD;
-    if (!step(&lin, n, damping, d, &predicted)) {
-        return;
+    jcal_hinge_linearise(&self->moments, &self->cfg, point, &lin);
+    if (!step(&lin, damping, d, &predicted)) {
+        return STEP_MAX_RAD;
     }
     jcal_hinge_point_t trial = *point;
-    jcal_hinge_point_move(&trial, d, self->cfg.gyr_bias_rad_s);
+    jcal_hinge_point_move(&trial, d);
     const float change = 0.5f * jcal_hinge_change(&self->moments, &self->cfg, point, &trial);
     jcal_gn_t gn = {*damping};
     const bool kept = jcal_gn_judge(&gn, predicted, change);
@@ -99,17 +73,7 @@ static void descend(const jcal_hinge_t *self, size_t n, jcal_hinge_point_t *poin
         *point = trial;
     }
     *damping = jcal_min(gn.damping, kept ? JCAL_GN_DAMPING_MAX : DAMPING_MAX);
-    lengths[0] = sqrtf((d[0] * d[0]) + (d[1] * d[1]));
-    lengths[1] = sqrtf((d[2] * d[2]) + (d[3] * d[3]));
-}
-
-float jcal_hinge_cost(const jcal_hinge_t *self, const jcal_hinge_point_t *point)
-{
-    const float unit = self->cfg.gyr_bias_rad_s;
-    const float biases =
-        jcal_vec3_dot(point->axis1.bias, point->axis1.bias) + jcal_vec3_dot(point->axis2.bias, point->axis2.bias);
-    return jcal_hinge_cost_gyr(&self->moments, point) + jcal_hinge_cost_acc(&self->moments, &self->cfg, point) +
-           (biases / (unit * unit));
+    return jcal_gn_length(d, JCAL_HINGE_TILTS);
 }
 
 void jcal_hinge_track(jcal_hinge_t *self)
@@ -117,18 +81,19 @@ void jcal_hinge_track(jcal_hinge_t *self)
     if (!self->has_point) {
         return;
     }
-    descend(self, JCAL_HINGE_UNKNOWNS, &self->point, &self->damping, self->moved_rad);
-    jcal_hinge_evidence_follow(&self->evidence, &self->point, false);
-    self->acc_constant_m_s2 = jcal_hinge_acc_constant(&self->moments, &self->cfg, &self->point);
+    (void)descend(self, &self->point, &self->damping);
+    self->acc_constant_m_s2 = jcal_hinge_acc_constant(&self->moments, &self->cfg, &self->refine.point);
 }
 
-/// Eigenvector `which` of the weighted sum of w w' that begins at feature `first`; the moments with the feature 1
-/// hold it.
+/// Eigenvector `which` of the weighted sum of |w|^2 w w' of the sensor whose products begin at `first`.
 static jcal_vec3_t rate_eigenvector(const jcal_hinge_moments_t *moments, unsigned first, unsigned which)
 {
-    const float *const sums = &moments->gyr[jcal_sym_at(JCAL_HINGE_Z_ONE, first)];
-    const float packed[6] = {sums[0], sums[3], sums[1],
-                             sums[4], sums[5], sums[2]}; /* xx, yy, zz, xy, xz, yz -> lower triangle */
+    float sums[6]; /* xx, yy, zz, xy, xz, yz */
+    for (unsigned i = 0u; i < 6u; ++i) {
+        sums[i] = moments->gyr[jcal_sym_at(first, first + i)] + moments->gyr[jcal_sym_at(first + 1u, first + i)] +
+                  moments->gyr[jcal_sym_at(first + 2u, first + i)];
+    }
+    const float packed[6] = {sums[0], sums[3], sums[1], sums[4], sums[5], sums[2]}; /* lower triangle */
     float values[3];
     float vectors[9];
     if (jcal_eig_symmetric(packed, 3u, values, vectors) != JCAL_OK) {
@@ -140,76 +105,98 @@ static jcal_vec3_t rate_eigenvector(const jcal_hinge_moments_t *moments, unsigne
 
 static jcal_hinge_point_t point_at(const jcal_hinge_place_t *place)
 {
-    jcal_hinge_point_t point = {{{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, place->bias1},
-                                {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, place->bias2}};
-    jcal_hinge_axis_set(&point.axis1, place->j1);
-    jcal_hinge_axis_set(&point.axis2, place->j2);
+    jcal_hinge_point_t point = {{{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}}, {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}}};
+    jcal_hinge_point_set(&point, place->j1, place->j2);
     return point;
 }
 
 static jcal_hinge_place_t place_of(const jcal_hinge_point_t *point)
 {
-    const jcal_hinge_place_t place = {point->axis1.j, point->axis2.j, point->axis1.bias, point->axis2.bias};
+    const jcal_hinge_place_t place = {point->axis1.j, point->axis2.j};
     return place;
+}
+
+static float cost_of(const jcal_hinge_t *self, const jcal_hinge_point_t *point)
+{
+    return jcal_hinge_cost(&self->moments, &self->cfg, point);
 }
 
 float jcal_hinge_cost_of_rival(const jcal_hinge_t *self)
 {
     const jcal_hinge_point_t rival = point_at(&self->search.rival);
-    return jcal_hinge_cost(self, &rival);
+    return cost_of(self, &rival);
+}
+
+jcal_hinge_point_t jcal_hinge_flipped(const jcal_hinge_t *self)
+{
+    jcal_hinge_point_t flip = self->point;
+    if (self->search.has_flip) {
+        jcal_hinge_point_set(&flip, self->search.flip.j1, self->search.flip.j2);
+    } else { /* it has no minimum near these lines; one elsewhere is a rival */
+        jcal_hinge_axis_set(&flip.axis2, jcal_vec3_scale(flip.axis2.j, -1.0f));
+    }
+    return flip;
+}
+
+/// The pairing of these lines that the specific forces prefer: (24) knows none.
+static void choose_pairing(const jcal_hinge_t *self, jcal_hinge_point_t *point)
+{
+    jcal_hinge_point_t turned = *point;
+    jcal_hinge_axis_set(&turned.axis2, jcal_vec3_scale(point->axis2.j, -1.0f));
+    const float here = jcal_hinge_cost_acc(&self->moments, &self->cfg, point);
+    if (jcal_hinge_cost_acc(&self->moments, &self->cfg, &turned) < here) {
+        *point = turned;
+    }
 }
 
 static void begin_probe(jcal_hinge_t *self)
 {
     jcal_hinge_search_t *const search = &self->search;
     const unsigned start = search->start;
-    search->probe = place_of(&self->point);
-    search->probe.j2 = jcal_vec3_scale(self->point.axis2.j, -1.0f);
+    jcal_hinge_point_t probe = self->point;
     if (start < EIGEN_STARTS) {
-        const jcal_vec3_t j2 = rate_eigenvector(&self->moments, JCAL_HINGE_Z_W2W2, start / 6u);
-        search->probe.j1 = rate_eigenvector(&self->moments, JCAL_HINGE_Z_W1W1, (start / 2u) % 3u);
-        search->probe.j2 = jcal_vec3_scale(j2, ((start % 2u) == 0u) ? 1.0f : -1.0f);
+        jcal_hinge_point_set(&probe, rate_eigenvector(&self->moments, JCAL_HINGE_Z_W1W1, start / 3u),
+                             rate_eigenvector(&self->moments, JCAL_HINGE_Z_W2W2, start % 3u));
+        choose_pairing(self, &probe);
+    } else {
+        jcal_hinge_axis_set(&probe.axis2, jcal_vec3_scale(probe.axis2.j, -1.0f));
     }
+    search->probe = place_of(&probe);
     search->damping = JCAL_GN_DAMPING_START;
     search->iterations = 0u;
     search->running = true;
 }
 
-/// Both signs turned together mean the same joint.
-static bool same_pairing(const jcal_hinge_point_t *a, const jcal_hinge_point_t *b)
+/// What was judged was the old minimum.
+static void begin_anew(jcal_hinge_t *self, const jcal_hinge_point_t *point)
 {
-    return (jcal_vec3_dot(a->axis1.j, b->axis1.j) * jcal_vec3_dot(a->axis2.j, b->axis2.j)) > 0.0f;
+    self->point = *point;
+    self->damping = JCAL_GN_DAMPING_START;
+    self->has_point = true;
+    self->agreed = 0u;
+    self->verdict.status = (uint8_t)JCAL_COLLECTING;
+    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
+    jcal_hinge_refine_restart(&self->refine, point);
 }
 
-/// The probe's minimum is better: it becomes the estimate, and the old one takes the place that it left.
-static void adopt(jcal_hinge_t *self, const jcal_hinge_point_t *probe, bool same_lines)
+/// Another minimum is better: it becomes the estimate, and the old one the rival.
+static void adopt(jcal_hinge_t *self, const jcal_hinge_point_t *probe)
 {
     jcal_hinge_search_t *const search = &self->search;
-    const jcal_hinge_point_t old = self->point;
-    self->point = *probe;
-    self->moved_rad[0] = STEP_MAX_RAD;
-    self->moved_rad[1] = STEP_MAX_RAD;
-    self->damping = JCAL_GN_DAMPING_START;
-    self->agreed = 0u;
-    self->verdict.status = (uint8_t)JCAL_COLLECTING; /* what was judged was the old minimum */
-    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
-    if (self->has_point && same_lines) {
-        search->flip1 = old.axis1.j;
-        search->flip2 = old.axis2.j;
-        search->has_flip = true;
-    } else if (self->has_point) {
-        search->rival = place_of(&old);
+    if (self->has_point) {
+        search->rival = place_of(&self->point);
         search->has_rival = true;
         search->has_flip = false;
     }
-    self->has_point = true;
-    const float turn_same = self->evidence.turn_other;
-    const float turn_other = self->evidence.turn_same;
-    jcal_hinge_evidence_follow(&self->evidence, &self->point, true);
-    if (same_lines) { /* the same lines in the other pairing: what the rates said of the pairings still holds */
-        self->evidence.turn_same = turn_same;
-        self->evidence.turn_other = turn_other;
-    }
+    begin_anew(self, probe);
+}
+
+void jcal_hinge_turn_round(jcal_hinge_t *self)
+{
+    const jcal_hinge_point_t flip = jcal_hinge_flipped(self);
+    self->search.flip = place_of(&self->point);
+    self->search.has_flip = true;
+    begin_anew(self, &flip);
 }
 
 /// True if the probe runs into the estimate, so that its further steps would tell nothing.
@@ -217,24 +204,7 @@ static bool has_joined(const jcal_hinge_t *self, const jcal_hinge_point_t *probe
 {
     return self->has_point && (fabsf(jcal_vec3_dot(self->point.axis1.j, probe->axis1.j)) > JOINED_COSINE) &&
            (fabsf(jcal_vec3_dot(self->point.axis2.j, probe->axis2.j)) > JOINED_COSINE) &&
-           same_pairing(&self->point, probe);
-}
-
-/// A better minimum close by: the estimate goes there, and what was summed at the old place still holds nearly enough.
-static void slide(jcal_hinge_t *self, const jcal_hinge_point_t *probe)
-{
-    self->point = *probe;
-    self->damping = JCAL_GN_DAMPING_START;
-    self->moved_rad[0] = STEP_MAX_RAD;
-    self->moved_rad[1] = STEP_MAX_RAD;
-    jcal_hinge_evidence_follow(&self->evidence, &self->point, false);
-}
-
-static void keep_flip(jcal_hinge_search_t *search, const jcal_hinge_point_t *probe)
-{
-    search->flip1 = probe->axis1.j;
-    search->flip2 = probe->axis2.j;
-    search->has_flip = true;
+           jcal_hinge_same_pairing(&self->point, probe);
 }
 
 /// Files what a finished probe found: the estimate itself, a better minimum, the other pairing, or a rival.
@@ -242,31 +212,32 @@ static void file_probe(jcal_hinge_t *self, const jcal_hinge_point_t *probe)
 {
     jcal_hinge_search_t *const search = &self->search;
     if (!self->has_point) {
-        adopt(self, probe, false);
+        adopt(self, probe);
         return;
     }
-    const bool same_lines = jcal_hinge_same_lines(&self->point, probe->axis1.j, probe->axis2.j);
-    const bool other_pairing = same_lines && !same_pairing(&self->point, probe);
-    /* The turn of the rates tells the pairings apart; it is summed at the present lines only. */
-    const float handicap = other_pairing ? (self->evidence.turn_other - self->evidence.turn_same) : 0.0f;
-    const float cost = jcal_hinge_cost(self, probe);
-    const bool better = (cost + handicap) < jcal_hinge_cost(self, &self->point);
-    if (other_pairing) {
-        if (better && (self->cfg.sign_hint == JCAL_SIGN_UNKNOWN)) {
-            adopt(self, probe, true);
+    const float cost = cost_of(self, probe);
+    const bool better = cost < cost_of(self, &self->point);
+    if (!jcal_hinge_same_lines(&self->point, probe)) {
+        if (better) {
+            adopt(self, probe);
+        } else if (!search->has_rival || (cost < jcal_hinge_cost_of_rival(self))) {
+            search->rival = place_of(probe);
+            search->has_rival = true;
         } else {
-            keep_flip(search, probe);
+            /* neither the best nor the second */
         }
-    } else if (same_lines) {
-        /* What lies nearby is covered by the bound, unless it is the better place. */
-        if (better && !has_joined(self, probe)) {
-            slide(self, probe);
+    } else if (!jcal_hinge_same_pairing(&self->point, probe)) {
+        search->flip = place_of(probe);
+        search->has_flip = true;
+        /* Later on the judgement decides, which knows what the rates say of the pairing. */
+        if (better && !(self->refine.blocks > 0.0f) && (self->cfg.sign_hint == JCAL_SIGN_UNKNOWN)) {
+            jcal_hinge_turn_round(self);
         }
-    } else if (better) {
-        adopt(self, probe, false);
-    } else if (!search->has_rival || (cost < jcal_hinge_cost_of_rival(self))) {
-        search->rival = place_of(probe);
-        search->has_rival = true;
+    } else if (better && !has_joined(self, probe)) {
+        self->point = *probe; /* a better place close by */
+        self->damping = JCAL_GN_DAMPING_START;
+    } else {
+        /* the estimate itself */
     }
 }
 
@@ -277,20 +248,13 @@ void jcal_hinge_search(jcal_hinge_t *self)
         begin_probe(self);
         return;
     }
-    float lengths[2];
     jcal_hinge_point_t probe = point_at(&search->probe);
-    const bool refining = search->iterations >= PROBE_STEPS;
-    descend(self, refining ? JCAL_HINGE_UNKNOWNS : JCAL_HINGE_AXIS_UNKNOWNS, &probe, &search->damping, lengths);
+    const float length = descend(self, &probe, &search->damping);
     search->probe = place_of(&probe);
     search->iterations = (uint8_t)(search->iterations + 1u);
-    if (!has_joined(self, &probe)) {
-        const bool arrived = jcal_max(lengths[0], lengths[1]) < STEP_MIN_RAD;
-        if (!refining && arrived) {
-            search->iterations = PROBE_STEPS; /* a place of its own: now its own biases */
-        }
-        if (search->iterations < (PROBE_STEPS + REFINE_STEPS)) {
-            return;
-        }
+    const bool ended = (length < STEP_MIN_RAD) || (search->iterations >= PROBE_STEPS);
+    if (!ended && !has_joined(self, &probe)) {
+        return;
     }
     search->running = false;
     search->start = (uint8_t)(search->start + 1u);
@@ -298,7 +262,7 @@ void jcal_hinge_search(jcal_hinge_t *self)
     file_probe(self, &probe);
     if (search->start >= STARTS) {
         search->start = 0u;
-        const bool counts = (self->evidence.excitation > 0.0f) && (search->rounds < UINT8_MAX);
+        const bool counts = (self->excitation > 0.0f) && (search->rounds < UINT8_MAX);
         search->rounds = counts ? (uint8_t)(search->rounds + 1u) : search->rounds;
     }
 }

@@ -229,8 +229,8 @@ jcal_status_t jcal_hinge_window_update(jcal_hinge_window_t *self, const jcal_pai
 /// status is `ready` only where both agree on the pairing and the bounds still hold.
 static void judge_beside_guard(const jcal_hinge_window_t *self, jcal_hinge_result_t *result)
 {
-    const jcal_vec3_t guard1 = self->guard.point.axis1.j;
-    const jcal_vec3_t guard2 = self->guard.point.axis2.j;
+    const jcal_vec3_t guard1 = self->guard.refine.point.axis1.j;
+    const jcal_vec3_t guard2 = self->guard.refine.point.axis2.j;
     const float apart1 = jcal_sphere_line_angle(guard1, result->axis1);
     const float apart2 = jcal_sphere_line_angle(guard2, result->axis2);
     result->uncertainty1_rad = jcal_min(result->uncertainty1_rad + apart1, JCAL_BOUND_UNKNOWN_RAD);

@@ -73,6 +73,17 @@ jcal_status_t jcal_chol_factor(const float *m, size_t n, float *l, float *pivot_
     return status;
 }
 
+void jcal_chol_scale(float *m, size_t n, float *scale)
+{
+    for (size_t i = 0u; i < n; ++i) {
+        const float diagonal = m[jcal_sym_at(i, i)];
+        scale[i] = (diagonal > 0.0f) ? (1.0f / sqrtf(diagonal)) : 1.0f;
+        for (size_t k = 0u; k <= i; ++k) {
+            m[jcal_sym_at(i, k)] *= scale[i] * scale[k];
+        }
+    }
+}
+
 void jcal_chol_solve(const float *l, size_t n, const float *b, float *x)
 {
     /* L y = b, top down; y is kept in x. */

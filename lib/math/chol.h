@@ -41,6 +41,13 @@ JCAL_MUST_CHECK jcal_status_t jcal_chol_factor(const float *m, size_t n, float *
 /// Cost:     as jcal_chol_factor; stack about 100 B.
 JCAL_MUST_CHECK jcal_status_t jcal_chol_factor_in_place(float *m, size_t n, float *pivot_ratio);
 
+/// Brings m (n x n) to a unit diagonal: m_ik <- s_i s_k m_ik with s_i = 1 / sqrt(m_ii); an element of the diagonal that is
+/// not positive keeps s_i = 1. Unknowns of very different units or information can then be factorised together.
+///
+/// Outputs:  scale (n). With y = s b the solution of the original equations is x = s (M_scaled^-1 y).
+/// Cost:     n^2 multiplications, n square roots and divisions.
+void jcal_chol_scale(float *m, size_t n, float *scale);
+
 /// x (n) <- M^-1 b (n) from the factor l. x may be b. Cost: n^2 multiply-adds, 2 n divisions.
 void jcal_chol_solve(const float *l, size_t n, const float *b, float *x);
 
