@@ -35,6 +35,7 @@ MEASUREMENTS = {
     "scenarios": "the four scenarios of OLS20 beside Algorithm 4",
     "time": "time to ready",
     "bias": "what the bias states buy",
+    "reference": "the stream engine beside float64, rig and simulated",
     "cost": "time and memory, beside qmt",
 }
 MODULES = {"time": "time_to_ready"}  # where the name differs

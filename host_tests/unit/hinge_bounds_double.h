@@ -1,190 +1,157 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// The bounds of docs/METHOD.md section 5 in double precision: powers summed sample by sample, information by
-/// elimination instead of factors and eigenvectors.
+/// The bounds of lib/calib/hinge_bounds.h in double precision: information by elimination instead of factors, eigenvectors
+/// by Jacobi's rotations.
 #ifndef HINGE_BOUNDS_DOUBLE_H
 #define HINGE_BOUNDS_DOUBLE_H
 
+#include "calib/hinge_refine.h"
 #include "hinge_double.h"
 
-/// Weighted sums over samples; index 0 is sensor 1.
-typedef struct {
-    double along2[2];  ///< (w . j)^2
-    double all2[2];    ///< |w|^2
-    double along4[2];  ///< (w . j)^4
-    double mixed[2];   ///< |w x j|^2 |w|^2
-    double product;    ///< (w1 . j1)^2 (w2 . j2)^2
-} power_sums_t;
+#include <string.h>
 
-static inline void add_powers(const dsample_t *s, const jcal_hinge_point_t *point, power_sums_t *p)
+/// Packed float matrix to a full double one (n x n).
+static inline void dunpack(const float *packed, size_t n, double *out)
 {
-    const dpoint_t at = dpoint(point);
-    const double zero[3] = {0.0, 0.0, 0.0};
-    double along2[2];
-    for (int i = 0; i < 2; ++i) {
-        const double along = ddot(s->w[i], at.j[i]);
-        const double all2 = ddot(s->w[i], s->w[i]);
-        along2[i] = along * along;
-        p->along2[i] += s->gyr_weight * along2[i];
-        p->all2[i] += s->gyr_weight * all2;
-        p->along4[i] += s->gyr_weight * along2[i] * along2[i];
-        p->mixed[i] += s->gyr_weight * dacross2(s->w[i], zero, at.j[i]) * all2;
+    for (size_t i = 0; i < n; ++i) {
+        for (size_t k = 0; k < n; ++k) {
+            out[(n * i) + k] = (double)packed[jcal_sym_at(i, k)];
+        }
     }
-    p->product += s->gyr_weight * along2[0] * along2[1];
 }
 
-/// Inverse (n x n, in place) by Gauss and Jordan; positive definite matrices need no pivoting.
-static inline void invert(double *m, int n)
+/// Eigenvectors (columns of v, 4 x 4) of a (4 x 4), which becomes diagonal.
+static inline void djacobi(double a[4][4], double v[4][4])
 {
-    for (int p = 0; p < n; ++p) {
-        const double pivot = m[(p * n) + p];
-        m[(p * n) + p] = 1.0;
-        for (int c = 0; c < n; ++c) {
-            m[(p * n) + c] /= pivot;
+    memset(v, 0, 16 * sizeof(double));
+    for (int i = 0; i < 4; ++i) {
+        v[i][i] = 1.0;
+    }
+    for (int turn = 0; turn < 20 * 6; ++turn) {
+        const int pairs[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
+        const int p = pairs[turn % 6][0];
+        const int q = pairs[turn % 6][1];
+        const double angle = 0.5 * atan2(2.0 * a[p][q], a[q][q] - a[p][p]);
+        const double c = cos(angle);
+        const double s = sin(angle);
+        for (int i = 0; i < 4; ++i) {
+            const double ip = a[i][p];
+            const double iq = a[i][q];
+            a[i][p] = (c * ip) - (s * iq);
+            a[i][q] = (s * ip) + (c * iq);
         }
-        for (int r = 0; r < n; ++r) {
-            const double factor = m[(r * n) + p];
-            if (r != p) {
-                m[(r * n) + p] = 0.0;
-                for (int c = 0; c < n; ++c) {
-                    m[(r * n) + c] -= factor * m[(p * n) + c];
-                }
+        for (int i = 0; i < 4; ++i) {
+            const double pi = a[p][i];
+            const double qi = a[q][i];
+            const double vp = v[i][p];
+            const double vq = v[i][q];
+            a[p][i] = (c * pi) - (s * qi);
+            a[q][i] = (s * pi) + (c * qi);
+            v[i][p] = (c * vp) - (s * vq);
+            v[i][q] = (s * vp) + (c * vq);
+        }
+    }
+}
+
+/// Scatter met over scatter expected, with 6 blocks of what the size of the residuals alone would make.
+static inline double dblend(double met, double noise, double blocks)
+{
+    return (((met * blocks) + (noise * 6.0)) / (blocks + 6.0)) * (1.0 + (1.0 / blocks));
+}
+
+static inline double dquadratic(double m[4][4], const double v[4])
+{
+    double sum = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        sum += v[i / 4] * m[i / 4][i % 4] * v[i % 4];
+    }
+    return sum;
+}
+
+/// Information of the tilts with the biases eliminated, each with `prior` readings of its own.
+static inline void dinformation(const jcal_hinge_refine_t *refine, double prior, double out[4][4])
+{
+    double m[64];
+    dunpack(refine->matrix, 8, m);
+    for (int p = 7; p >= 4; --p) {
+        m[9 * p] += prior;
+    }
+    for (int p = 7; p >= 4; --p) {
+        for (int i = 0; i < p; ++i) {
+            for (int k = 0; k < p; ++k) {
+                m[(8 * i) + k] -= m[(8 * i) + p] * m[(8 * p) + k] / m[9 * p];
             }
         }
     }
-}
-
-/// Mean square of the noise across one direction, from what is left of |q1| - |q2|.
-static inline double noise_in_double(const jcal_hinge_evidence_t *e)
-{
-    const double mean = (double)e->noise_sum / (double)e->noise_weight;
-    const double across = (double)e->across_rate2 / (double)e->fit_time_s;
-    return 1.15 * mean * (0.5 + (1.6 * fmin(mean / across, 0.6)));
-}
-
-/// Information of the axes (4 x 4): noise power taken off, accelerometer discounted, biases eliminated with their prior
-/// counted `prior` times. gain (4 x 4) is what a unit of an axis moves the biases by.
-static inline void information_in_double(const jcal_hinge_lin_t *lin, const double pretended[2], const double prior[2],
-                                         double s[16], double gain[16])
-{
-    const double trust = 1.0 / (1.0 + (0.1 * (double)lin->cost_acc));
-    double b[16];
-    for (size_t i = 0; i < 16; ++i) {
-        b[i] = (double)lin->matrix[jcal_sym_at(4u + (i / 4u), 4u + (i % 4u))];
-        b[i] += ((i / 4u) == (i % 4u)) ? (prior[i / 8u] - 1.0) : 0.0;
-    }
-    invert(b, 4);
-    for (size_t r = 0; r < 4; ++r) {
-        for (size_t c = 0; c < 4; ++c) {
-            gain[(4u * r) + c] = 0.0;
-            for (size_t k = 0; k < 4; ++k) {
-                gain[(4u * r) + c] += b[(4u * r) + k] * (double)lin->matrix[jcal_sym_at(4u + k, c)];
-            }
-        }
-    }
-    for (size_t r = 0; r < 4; ++r) {
-        for (size_t c = 0; c < 4; ++c) {
-            double sum = (double)lin->matrix[jcal_sym_at(r, c)];
-            sum -= (1.0 - trust) * (double)lin->matrix_acc[jcal_sym_at(r, c)];
-            sum -= (r == c) ? pretended[r / 2u] : 0.0;
-            for (size_t k = 0; k < 4; ++k) {
-                sum -= (double)lin->matrix[jcal_sym_at(4u + k, r)] * gain[(4u * k) + c];
-            }
-            s[(4u * r) + c] = sum;
-        }
+    for (int i = 0; i < 16; ++i) {
+        out[i / 4][i % 4] = m[(8 * (i / 4)) + (i % 4)];
     }
 }
 
-/// Half the trace of (information of one axis)^-1 times the scatter of its score, the own biases eliminated from both
-/// and without their prior.
-static inline double ratio_in_double(const jcal_hinge_lin_t *lin, const float *scatter, size_t axis,
-                                     const double gain[16])
+/// 95 % bounds of both axes, rad, and the largest inflation.
+static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], double *largest)
 {
-    const size_t first = 2u * axis;
-    const size_t own[4] = {first, first + 1u, 4u + first, 5u + first};
-    double block[4];
-    double reduced[4];
+    const jcal_hinge_refine_t *const r = &self->refine;
+    const double cost = (double)r->cost;
+    const double noise = fmax(cost / (2.0 * (double)r->units), 0.01);
+    const double blocks = (double)r->information * (double)r->information / (double)r->information2;
+    double scatter[4][4];
+    dunpack(r->scatter, 4, &scatter[0][0]);
+    double met = 0.0;
     for (size_t i = 0; i < 4; ++i) {
-        /* Rows (e_r, -gain of own biases): the score of the axis minus what the biases explain of it. */
-        double rows[2][4] = {{0.0}};
-        const size_t unknown[2] = {i / 2u, i % 2u};
-        for (size_t k = 0; k < 2; ++k) {
-            rows[k][unknown[k]] = 1.0;
-            rows[k][2] = -gain[(4u * first) + first + unknown[k]];
-            rows[k][3] = -gain[(4u * (first + 1u)) + first + unknown[k]];
-        }
-        reduced[i] = 0.0;
-        block[i] = 0.0;
-        for (size_t k = 0; k < 16; ++k) {
-            const double both = rows[0][k / 4u] * rows[1][k % 4u];
-            const double prior = ((k / 4u == k % 4u) && (k / 4u >= 2u)) ? 1.0 : 0.0;
-            reduced[i] += both * (double)scatter[jcal_sym_at(k / 4u, k % 4u)];
-            block[i] += both * ((double)lin->matrix[jcal_sym_at(own[k / 4u], own[k % 4u])] - prior);
-        }
+        met += 0.25 * scatter[i][i] / (double)r->matrix[jcal_sym_at(i, i)];
     }
-    invert(block, 2);
-    return 0.5 *
-           ((block[0] * reduced[0]) + (block[1] * reduced[2]) + (block[2] * reduced[1]) + (block[3] * reduced[3]));
-}
-
-static inline double blend_in_double(double coarse, double fine, double blocks)
-{
-    const double mean = ((coarse * blocks) + (1.5 * fine * 6.0)) / (blocks + 6.0);
-    return fmax(mean * (1.0 + (4.0 / blocks)), fine);
-}
-
-/// Squared bound by the second order.
-static inline double second_in_double(const power_sums_t *p, size_t axis, double noise, double scatter)
-{
-    const size_t other = 1u - axis;
-    const double left = p->along4[axis] - (p->product * p->product / p->along4[other]) -
-                        (2.0 * 4.0 * noise * (p->along2[0] + p->along2[1]));
-    const double unequal = noise * p->along2[axis];
-    if (!(left > 0.0)) {
-        return 10.0;
+    /* All of the information, and what is believed of it. */
+    jcal_hinge_lin_t acc;
+    jcal_hinge_linearise_acc(&self->moments, &self->cfg, &r->point, &acc);
+    const double acc_cost = (double)acc.cost_acc;
+    const double trust = 1.0 / (1.0 + (0.1 * acc_cost));
+    double all[4][4];
+    double sure[4][4];
+    double of_acc[16];
+    double vectors[4][4];
+    dunpack(acc.matrix, 4, of_acc);
+    dinformation(r, dblend(met, noise, blocks), all);
+    for (int i = 0; i < 16; ++i) {
+        const bool diagonal = (i % 5) == 0;
+        sure[i / 4][i % 4] =
+            all[i / 4][i % 4] + (trust * of_acc[i]) - (diagonal ? ((0.5 * cost) + (trust * acc_cost)) : 0.0);
+        all[i / 4][i % 4] += of_acc[i];
     }
-    return sqrt(((4.0 * scatter) + (unequal * unequal)) / p->along4[axis] / left);
-}
-
-/// How much more than independent residuals the score of an axis scatters.
-static inline double inflation_in_double(const jcal_hinge_scatter_t *e, const jcal_hinge_lin_t *lin, size_t axis,
-                                         const double gain[16], double *second)
-{
-    const double closed = (double)e->information - (double)e->coarse_information;
-    const double blocks = closed * closed / (double)e->information2;
-    const double scale = (double)e->information_all / (double)e->information;
-    *second = scale * blend_in_double((double)e->second, (double)e->fine_second, blocks);
-    return blend_in_double(scale * ratio_in_double(lin, e->scatter, axis, gain),
-                           scale * ratio_in_double(lin, e->fine_scatter, axis, gain), blocks);
-}
-
-/// 95 % bounds of both axes, rad, for information without an open direction.
-static inline void bounds_in_double(const jcal_hinge_t *self, const jcal_hinge_lin_t *lin, const power_sums_t *p,
-                                    double out[2])
-{
-    const double noise = noise_in_double(&self->evidence);
+    djacobi(sure, vectors);
+    /* Variance along each eigenvector, summed up per axis. */
+    const double pull = 10.0 + (6000.0 * noise / fmax((double)r->blocks, 1.0));
     const double mismatch = (double)self->cfg.rate_mismatch;
-    const double floor = 4.0 * mismatch * mismatch * (p->mixed[0] + p->mixed[1]) / (3.84 + 2.15);
-    const double of_acc = (double)lin->cost_acc / (1.0 + (0.1 * (double)lin->cost_acc));
-    const double pretended[2] = {(4.0 * noise * p->along2[0]) + of_acc, (4.0 * noise * p->along2[1]) + of_acc};
-    const double once[2] = {1.0, 1.0};
-    double s[16];
-    double gain[16];
-    double second[2];
-    information_in_double(lin, pretended, once, s, gain);
-    const double inflation[2] = {inflation_in_double(&self->evidence.axis1, lin, 0, gain, &second[0]),
-                                 inflation_in_double(&self->evidence.axis2, lin, 1, gain, &second[1])};
-    information_in_double(lin, pretended, inflation, s, gain);
-    invert(s, 4);
-    for (size_t axis = 0; axis < 2; ++axis) {
-        const double *const c = &s[(4u * 2u * axis) + (2u * axis)]; /* own 2 x 2 block, rows 4 apart */
-        const double mean = 0.5 * (c[0] + c[5]);
-        const double half = sqrt((0.25 * (c[0] - c[5]) * (c[0] - c[5])) + (c[1] * c[1]));
-        const double first = (inflation[axis] + floor) * ((3.84 * (mean + half)) + (2.15 * (mean - half)));
-        const double by_second = second_in_double(p, axis, noise, second[axis]);
-        const bool holds = first * p->along2[axis] < 0.16 * (p->all2[axis] - p->along2[axis]);
-        out[axis] =
-            sqrt(holds ? fmin(first, by_second) : fmax(first, by_second)) + (1.5 * (double)self->moved_rad[axis]);
+    double covariance[2][3] = {{0.0}};
+    *largest = 0.0;
+    for (int k = 0; k < 4; ++k) {
+        double v[4];
+        double systematic = 0.0;
+        for (int i = 0; i < 4; ++i) {
+            v[i] = vectors[i][k];
+            const double lever = (double)r->lever[i / 2];
+            systematic += v[i] * v[i] * mismatch * mismatch * lever * lever / (double)r->along[i / 2] / (3.84 + 2.15);
+        }
+        const double inflation = dblend(dquadratic(scatter, v) / dquadratic(all, v), noise, blocks);
+        const double pulled = pull * 0.05 / sure[k][k];
+        const bool open = !(sure[k][k] > 1.0);
+        const double variance = open ? 10.0 : (((inflation + systematic) / sure[k][k]) + (pulled * pulled));
+        *largest = fmax(*largest, inflation);
+        for (int axis = 0; axis < 2; ++axis) {
+            covariance[axis][0] += variance * v[2 * axis] * v[2 * axis];
+            covariance[axis][1] += variance * v[2 * axis] * v[(2 * axis) + 1];
+            covariance[axis][2] += variance * v[(2 * axis) + 1] * v[(2 * axis) + 1];
+        }
+    }
+    for (int axis = 0; axis < 2; ++axis) {
+        /* Eigenvalues of the 2 x 2 block by trace and determinant. */
+        const double *const c = covariance[axis];
+        const double half_trace = 0.5 * (c[0] + c[2]);
+        const double root = sqrt(fmax((half_trace * half_trace) - ((c[0] * c[2]) - (c[1] * c[1])), 0.0));
+        const double bound = fmin(sqrt((3.84 * (half_trace + root)) + (2.15 * (half_trace - root))), 1.57079633);
+        /* The model is linear where a tilt changes the rate across the axis by less than a fifth. */
+        const double reach = 0.2 * sqrt((double)r->across / (double)r->along[axis]);
+        out[axis] = fmin(bound * fmax(1.0, bound / reach), 1.57079633);
     }
 }
 

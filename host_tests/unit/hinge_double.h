@@ -4,7 +4,6 @@
 #ifndef HINGE_DOUBLE_H
 #define HINGE_DOUBLE_H
 
-#include "calib/hinge_evidence.h"
 #include "calib/hinge_model.h"
 #include "calib/hinge_point.h"
 #include "math/rng.h"
@@ -15,7 +14,6 @@
 /// A point of the parameter space; index 0 is sensor 1.
 typedef struct {
     double j[2][3];
-    double b[2][3];
 } dpoint_t;
 
 /// A sample with its weights.
@@ -48,22 +46,19 @@ static inline dpoint_t dpoint(const jcal_hinge_point_t *point)
     dpoint_t p = {0};
     dset(point->axis1.j, p.j[0]);
     dset(point->axis2.j, p.j[1]);
-    dset(point->axis1.bias, p.b[0]);
-    dset(point->axis2.bias, p.b[1]);
     return p;
 }
 
-/// |(w - b) x j|^2 by the cross product: nothing in common with the expanded form in lib/.
-static inline double dacross2(const double w[3], const double b[3], const double j[3])
+/// |w x j|^2 by the cross product: nothing in common with the expanded form in lib/.
+static inline double dacross2(const double w[3], const double j[3])
 {
-    const double u[3] = {w[0] - b[0], w[1] - b[1], w[2] - b[2]};
-    const double c[3] = {(u[1] * j[2]) - (u[2] * j[1]), (u[2] * j[0]) - (u[0] * j[2]), (u[0] * j[1]) - (u[1] * j[0])};
+    const double c[3] = {(w[1] * j[2]) - (w[2] * j[1]), (w[2] * j[0]) - (w[0] * j[2]), (w[0] * j[1]) - (w[1] * j[0])};
     return ddot(c, c);
 }
 
 static inline double de_gyr(const dsample_t *s, const dpoint_t *p)
 {
-    return dacross2(s->w[0], p->b[0], p->j[0]) - dacross2(s->w[1], p->b[1], p->j[1]);
+    return dacross2(s->w[0], p->j[0]) - dacross2(s->w[1], p->j[1]);
 }
 
 static inline double de_acc(const dsample_t *s, const dpoint_t *p)
@@ -71,26 +66,20 @@ static inline double de_acc(const dsample_t *s, const dpoint_t *p)
     return ddot(s->a[0], p->j[0]) - ddot(s->a[1], p->j[1]);
 }
 
-/// Moves one of the 8 unknowns of hinge_model.h by h: along u or v of an axis, whose bias is then projected across it
-/// again, or a bias along u or v in its unit.
-static inline dpoint_t dmoved(const jcal_hinge_point_t *point, unsigned unknown, double h, double bias_unit)
+/// Moves one of the 4 unknowns of hinge_model.h by h: along u or v of an axis.
+static inline dpoint_t dmoved(const jcal_hinge_point_t *point, unsigned unknown, double h)
 {
     dpoint_t p = dpoint(point);
-    const unsigned s = (unknown / 2u) % 2u;
+    const unsigned s = unknown / 2u;
     const jcal_hinge_axis_t *const axis = (s == 0u) ? &point->axis1 : &point->axis2;
     double t[3];
     dset(((unknown % 2u) == 0u) ? axis->u : jcal_vec3_cross(axis->j, axis->u), t);
     for (int i = 0; i < 3; ++i) {
-        p.j[s][i] += (unknown < 4u) ? (h * t[i]) : 0.0;
-        p.b[s][i] += (unknown < 4u) ? 0.0 : (h * bias_unit * t[i]);
+        p.j[s][i] += h * t[i];
     }
     const double norm = sqrt(ddot(p.j[s], p.j[s]));
     for (int i = 0; i < 3; ++i) {
         p.j[s][i] /= norm;
-    }
-    const double along = ddot(p.j[s], p.b[s]);
-    for (int i = 0; i < 3; ++i) {
-        p.b[s][i] -= along * p.j[s][i];
     }
     return p;
 }
@@ -126,18 +115,17 @@ static inline dsample_t random_sample(jcal_rng_t *rng)
     return s;
 }
 
-static inline void random_axis(jcal_rng_t *rng, float bias, jcal_hinge_axis_t *axis)
+static inline void random_axis(jcal_rng_t *rng, jcal_hinge_axis_t *axis)
 {
     axis->u = jcal_rng_unit(rng);
-    axis->bias = jcal_vec3_scale(jcal_rng_unit(rng), bias);
     jcal_hinge_axis_set(axis, jcal_rng_unit(rng));
 }
 
-static inline jcal_hinge_point_t random_point(jcal_rng_t *rng, float bias)
+static inline jcal_hinge_point_t random_point(jcal_rng_t *rng)
 {
     jcal_hinge_point_t point;
-    random_axis(rng, bias, &point.axis1);
-    random_axis(rng, bias, &point.axis2);
+    random_axis(rng, &point.axis1);
+    random_axis(rng, &point.axis2);
     return point;
 }
 

@@ -1,12 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Made-up hinge motion for tests: exact constraints, given mounting, a little noise. In double precision.
+/// Made-up hinge motion for tests: exact constraints, given mounting, a little noise. In double precision. And what the
+/// tests of both engines say of a result.
 #ifndef HINGE_MOTION_H
 #define HINGE_MOTION_H
 
+#include "jointcal/hinge.h"
 #include "jointcal/quat.h"
+#include "math/angle.h"
+#include "math/sphere.h"
+#include "unity.h"
 
 #include <math.h>
+
+/* Exact constraints with noise of 0.01 rad/s and 0.05 m/s^2 over 20 s, or in 200 selected rows: a few tenths of a degree. */
+static const float AXIS_TOL_RAD = 0.5f * JCAL_RAD_PER_DEG;
 
 /// What a motion is made of.
 typedef struct {
@@ -16,6 +24,7 @@ typedef struct {
     double speed;        ///< 1 is lively, 0 is at rest.
     double joint_speed;  ///< The same for the joint; 0 is a stiff joint.
     double gyr_noise_rad_s;
+    double gyr_noise2_rad_s;  ///< That of sensor 2; 0: the same.
     double acc_noise_m_s2;
     uint32_t seed;
 } motion_t;
@@ -30,14 +39,19 @@ static inline double motion_noise(uint32_t *state)
     return sum * 1.41421356; /* six uniform numbers: standard deviation 1 */
 }
 
+static inline jcal_vec3_t motion_noise3(double size, uint32_t *state)
+{
+    const float x = (float)(size * motion_noise(state));
+    const float y = (float)(size * motion_noise(state));
+    const float z = (float)(size * motion_noise(state));
+    return jcal_vec3(x, y, z);
+}
+
 static inline jcal_vec3_t motion_sensor(jcal_quat_t q_sensor_segment, const double v[3], double noise, uint32_t *state)
 {
     const jcal_vec3_t clean =
         jcal_quat_rotate(jcal_quat_conj(q_sensor_segment), jcal_vec3((float)v[0], (float)v[1], (float)v[2]));
-    const float x = (float)(noise * motion_noise(state));
-    const float y = (float)(noise * motion_noise(state));
-    const float z = (float)(noise * motion_noise(state));
-    return jcal_vec3_add(clean, jcal_vec3(x, y, z));
+    return jcal_vec3_add(clean, motion_noise3(noise, state));
 }
 
 /// Sample k; both axes are (0, 0, 1) in the segment frames.
@@ -61,7 +75,8 @@ static inline jcal_pair_t motion_sample(const motion_t *m, uint32_t k)
     jcal_pair_t pair;
     pair.t_us = (uint64_t)(t * 1e6 + 0.5) + 1000000u;
     pair.imu1.gyr_rad_s = motion_sensor(m->q_s1_a, wa, m->gyr_noise_rad_s, &state);
-    pair.imu2.gyr_rad_s = motion_sensor(m->q_s2_b, wb, m->gyr_noise_rad_s, &state);
+    pair.imu2.gyr_rad_s =
+        motion_sensor(m->q_s2_b, wb, (m->gyr_noise2_rad_s > 0.0) ? m->gyr_noise2_rad_s : m->gyr_noise_rad_s, &state);
     pair.imu1.acc_m_s2 = motion_sensor(m->q_s1_a, fa, m->acc_noise_m_s2, &state);
     pair.imu2.acc_m_s2 = motion_sensor(m->q_s2_b, fb, m->acc_noise_m_s2, &state);
     return pair;
@@ -88,6 +103,37 @@ static inline motion_t motion_lively(uint32_t mounting)
 static inline jcal_vec3_t motion_axis(const motion_t *m, int sensor)
 {
     return jcal_quat_rotate(jcal_quat_conj((sensor == 0) ? m->q_s1_a : m->q_s2_b), jcal_vec3(0.0f, 0.0f, 1.0f));
+}
+
+/// Mounting near the identity: both axes near (0, 0, 1), or, for the opposite pairing, sensor 2 turned about x by half
+/// a turn and axis 2 near (0, 0, -1).
+static inline motion_t motion_paired(bool same)
+{
+    motion_t motion = motion_lively(4);
+    motion.q_s1_a = jcal_quat_normalise(jcal_quat(1.0f, 0.1f, 0.0f, 0.0f));
+    motion.q_s2_b = same ? motion.q_s1_a : jcal_quat_normalise(jcal_quat(0.1f, 1.0f, 0.0f, 0.0f));
+    return motion;
+}
+
+/* Both axes up to their common sign: the right pairing is part of it. */
+static inline void assert_axes(const jcal_hinge_result_t *result, const motion_t *motion)
+{
+    const jcal_vec3_t truth1 = motion_axis(motion, 0);
+    const jcal_vec3_t truth2 = motion_axis(motion, 1);
+    const float sign = (jcal_vec3_dot(result->axis1, truth1) < 0.0f) ? -1.0f : 1.0f;
+    TEST_ASSERT_TRUE(result->has_axes);
+    TEST_ASSERT_TRUE(jcal_sphere_angle(jcal_vec3_scale(result->axis1, sign), truth1) < AXIS_TOL_RAD);
+    TEST_ASSERT_TRUE(jcal_sphere_angle(jcal_vec3_scale(result->axis2, sign), truth2) < AXIS_TOL_RAD);
+}
+
+/* Unit axes, of which the first is shown with its largest component positive. */
+static inline void assert_normal_form(const jcal_hinge_result_t *r)
+{
+    const float low = fminf(r->axis1.x, fminf(r->axis1.y, r->axis1.z));
+    const float high = fmaxf(r->axis1.x, fmaxf(r->axis1.y, r->axis1.z));
+    TEST_ASSERT_TRUE(high >= -low);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f, jcal_vec3_norm(r->axis1));
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f, jcal_vec3_norm(r->axis2));
 }
 
 #endif /* HINGE_MOTION_H */

@@ -7,17 +7,11 @@
 #include "jointcal/hinge_window.h"
 
 #include "hinge_motion.h"
-#include "math/angle.h"
-#include "math/sphere.h"
-#include "unity.h"
 
 #include <math.h>
 #include <string.h>
 
 enum { N_MAX = 200, HALF_WINDOW = 10, BYTES = JCAL_HINGE_WINDOW_STORAGE_BYTES(N_MAX, HALF_WINDOW), RUN = 1500 };
-
-/* Exact constraints with noise of 0.01 rad/s and 0.05 m/s^2 on 200 rows: a few tenths of a degree. */
-static const float AXIS_TOL_RAD = 0.5f * JCAL_RAD_PER_DEG;
 
 static float storage[BYTES / sizeof(float)];
 static float storage2[BYTES / sizeof(float)];
@@ -50,17 +44,6 @@ static inline jcal_hinge_result_t result_of(const jcal_hinge_window_t *self)
     jcal_hinge_result_t result;
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_window_get(self, &result));
     return result;
-}
-
-/* Both axes up to their common sign. */
-static inline void assert_axes(const jcal_hinge_result_t *result, const motion_t *motion)
-{
-    const jcal_vec3_t truth1 = motion_axis(motion, 0);
-    const jcal_vec3_t truth2 = motion_axis(motion, 1);
-    const float sign = (jcal_vec3_dot(result->axis1, truth1) < 0.0f) ? -1.0f : 1.0f;
-    TEST_ASSERT_TRUE(result->has_axes);
-    TEST_ASSERT_TRUE(jcal_sphere_angle(jcal_vec3_scale(result->axis1, sign), truth1) < AXIS_TOL_RAD);
-    TEST_ASSERT_TRUE(jcal_sphere_angle(jcal_vec3_scale(result->axis2, sign), truth2) < AXIS_TOL_RAD);
 }
 
 #endif /* HINGE_WINDOW_FIXTURE_H */

@@ -13,7 +13,7 @@ static void the_default_config_is_valid(void)
     TEST_ASSERT_EQUAL_FLOAT(0.03f, config.gyr_noise_rad_s);
     TEST_ASSERT_EQUAL_FLOAT(1.5f, config.acc_noise_m_s2);
     TEST_ASSERT_EQUAL_FLOAT(1.0f, config.lever_arm_m);
-    TEST_ASSERT_EQUAL_FLOAT(0.01f, config.gyr_bias_rad_s);
+    TEST_ASSERT_EQUAL_FLOAT(0.007f, config.gyr_bias_rad_s);
     TEST_ASSERT_EQUAL_FLOAT(0.5f, config.acc_bias_m_s2);
     TEST_ASSERT_EQUAL_INT(JCAL_SIGN_UNKNOWN, config.sign_hint);
 }

@@ -129,11 +129,7 @@ static jcal_pair_t white_noise(const motion_t *motion, uint32_t k)
     jcal_vec3_t *const vectors[4] = {&pair.imu1.gyr_rad_s, &pair.imu2.gyr_rad_s, &pair.imu1.acc_m_s2,
                                      &pair.imu2.acc_m_s2};
     for (int i = 0; i < 4; ++i) {
-        const float size = (i < 2) ? 2.0f : 10.0f;
-        const float x = (float)motion_noise(&state);
-        const float y = (float)motion_noise(&state);
-        const float z = (float)motion_noise(&state);
-        *vectors[i] = jcal_vec3_scale(jcal_vec3(x, y, z), size);
+        *vectors[i] = motion_noise3((i < 2) ? 2.0 : 10.0, &state);
     }
     return pair;
 }
@@ -179,11 +175,10 @@ static jcal_pair_t turned_copy(const motion_t *motion, uint32_t k)
 {
     jcal_pair_t pair = motion_sample(motion, k);
     uint32_t state = (k * 2891336453u) + motion->seed;
-    const float x = 0.01f * (float)motion_noise(&state);
-    const float y = 0.01f * (float)motion_noise(&state);
-    const float z = 0.01f * (float)motion_noise(&state);
-    pair.imu2.gyr_rad_s = jcal_vec3_add(jcal_quat_rotate(motion->q_s2_b, pair.imu1.gyr_rad_s), jcal_vec3(x, y, z));
-    pair.imu2.acc_m_s2 = jcal_vec3_add(jcal_quat_rotate(motion->q_s2_b, pair.imu1.acc_m_s2), jcal_vec3(y, z, x));
+    const jcal_vec3_t gyr = motion_noise3(0.01, &state);
+    const jcal_vec3_t acc = motion_noise3(0.01, &state);
+    pair.imu2.gyr_rad_s = jcal_vec3_add(jcal_quat_rotate(motion->q_s2_b, pair.imu1.gyr_rad_s), gyr);
+    pair.imu2.acc_m_s2 = jcal_vec3_add(jcal_quat_rotate(motion->q_s2_b, pair.imu1.acc_m_s2), acc);
     return pair;
 }
 

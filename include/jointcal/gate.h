@@ -14,7 +14,10 @@
 extern "C" {
 #endif
 
-/// Why a sample was not used; the first cause that applies counts. Also the index of its counter.
+/// Why a sample was not used; one cause counts: not finite, else time, else the first of the others. Also the index of its counter.
+///
+/// Time that does not increase is never believed again: after a wild time stamp far in the future, or a clock that starts
+/// anew, every sample is rejected (and the status says `bad_samples`) until the caller resets.
 typedef enum {
     JCAL_REJECT_NOT_FINITE = 0,    ///< A value is NaN or infinite.
     JCAL_REJECT_OUT_OF_RANGE = 1,  ///< Beyond what a sensor can read, or wrong units.
@@ -71,7 +74,7 @@ void jcal_gate_init(jcal_gate_t *self);
 
 /// Checks one sample pair against a valid config, remembers it and counts the outcome.
 ///
-/// Returns:  JCAL_REJECT_NONE, or the first cause that applies in the order of jcal_reject_t.
+/// Returns:  JCAL_REJECT_NONE, or the cause that counts.
 /// Cost:     constant, about 150 floating-point operations; no square root but two.
 jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *config, const jcal_pair_t *pair);
 

@@ -32,8 +32,9 @@
 #define PRODUCT_TIME_S 0.2f
 
 /// Readings of the same pose add little: their weight falls like 1 / (1 + t) while both specific forces stay within
-/// this, (m/s^2)^2.
+/// this, (m/s^2)^2, and is nothing after DWELL_MAX_S: hours of it would only round.
 #define DWELL_ACC2 1.0f
+#define DWELL_MAX_S 10.0f
 
 /// Rest: both rates below this, squared sum, (rad/s)^2. Its weight falls like 1 / (1 + t^2), so that a rest of any length counts as
 /// 1.6 s; after REST_MAX_S the refined axes leave it out too.
@@ -159,6 +160,9 @@ static float acc_weight(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
         self->dwell_s = 0.0f;
     }
     self->dwell_s += sample->dt_s;
+    if (self->dwell_s > DWELL_MAX_S) {
+        return 0.0f; /* so small a weight would only round */
+    }
     const float violation = self->cfg.lever_arm_m * self->rate_product;
     const float variance = (self->cfg.acc_noise_m_s2 * self->cfg.acc_noise_m_s2) + (violation * violation);
     return (sample->dt_s / JCAL_HINGE_UNIT_S) / (variance * (1.0f + self->dwell_s));

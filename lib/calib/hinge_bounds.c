@@ -31,6 +31,9 @@
 /// known well enough for a linear statement.
 #define LINEAR_SHARE 0.2f
 
+/// Integral of the squared rate along an axis below which its segment has not turned, rad^2/s: a third of a second at 0.3 rad/s.
+#define TURNED_MIN 0.03f
+
 /// 95 % points: of a squared normal variable, and what a second one of the same size adds to that.
 #define ONE_DIRECTION 3.84f
 #define SECOND_DIRECTION 2.15f
@@ -98,6 +101,13 @@ static float radius(const float covariance[3])
     const float half = sqrtf((differ * differ) + (covariance[1] * covariance[1]));
     const float radius2 = (ONE_DIRECTION * (mean + half)) + (SECOND_DIRECTION * jcal_max(mean - half, 0.0f));
     return jcal_min(sqrtf(radius2), JCAL_BOUND_UNKNOWN_RAD);
+}
+
+/// True if a segment has turned about its axis long enough for its rates, and not another sensor's readings, to show it.
+static bool has_turned(const jcal_hinge_t *self, unsigned axis)
+{
+    const float noise = self->cfg.gyr_noise_rad_s;
+    return (self->refine.along[axis] * noise * noise * JCAL_HINGE_UNIT_S) > TURNED_MIN;
 }
 
 /// The bound, made wider where a tilt by it changes the rate across the axis too much for linear sums.
@@ -177,7 +187,7 @@ bool jcal_hinge_bounds(const jcal_hinge_t *self, jcal_hinge_bounds_t *out)
         }
         out->inflation = jcal_max(out->inflation, inflation);
     }
-    out->bound1_rad = widen(refine, 0u, radius(covariance[0]));
-    out->bound2_rad = widen(refine, 1u, radius(covariance[1]));
+    out->bound1_rad = has_turned(self, 0u) ? widen(refine, 0u, radius(covariance[0])) : JCAL_BOUND_UNKNOWN_RAD;
+    out->bound2_rad = has_turned(self, 1u) ? widen(refine, 1u, radius(covariance[1])) : JCAL_BOUND_UNKNOWN_RAD;
     return true;
 }

@@ -39,7 +39,7 @@
 /// Entering `ready` takes bounds below this share of the limit, staying there the limit itself.
 #define ENTER_SHARE 0.98f
 
-/// Judgements in a row, one each 80 ms, that must agree before `ready`.
+/// Judgements in a row, one each 40 ms, that must agree before `ready`.
 #define AGREED_MIN 6u
 
 /// Rounds of the global check, half a second each, after which the axes should have been found.
@@ -72,7 +72,7 @@ static sign_t compare_signs(const jcal_hinge_t *self)
     const float turn_odds = (refine->sign_time_s / TURN_MEMORY_S) * jcal_ln(ratio_of(refine->other, refine->same));
     const float turn_scale = refine->units / jcal_max(refine->time_s, 1e-9f);
     sign.evidence = 0.5f * (acc_odds + turn_odds);
-    sign.margin = (acc_other + (turn_scale * refine->other)) / jcal_max(acc_same + (turn_scale * refine->same), 1e-20f);
+    sign.margin = ratio_of(acc_other + (turn_scale * refine->other), acc_same + (turn_scale * refine->same));
     return sign;
 }
 
@@ -125,6 +125,18 @@ static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
     }
 }
 
+static bool is_hinted(const jcal_hinge_t *self)
+{
+    return self->cfg.sign_hint != JCAL_SIGN_UNKNOWN;
+}
+
+/// True if the data insist on the pairing that the user's hint excludes.
+static bool contradicts_hint(const jcal_hinge_t *self, const sign_t *sign)
+{
+    const bool contradicted = (sign->evidence < -SIGN_EVIDENCE_MIN) && (sign->margin < (1.0f / SIGN_MARGIN_MIN));
+    return is_hinted(self) && (contradicted || !jcal_hinge_obeys(&self->refine.point, self->cfg.sign_hint));
+}
+
 /// The first thing that keeps the estimate from being ready, the worst first.
 static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_bounds_t *bounds, const sign_t *sign)
 {
@@ -135,6 +147,9 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
     if (self->excitation < EXCITATION_MIN) {
         return JCAL_REASON_NO_MOTION;
     }
+    if (contradicts_hint(self, sign)) {
+        return JCAL_REASON_SIGN_OPEN;
+    }
     if (!fits(self)) {
         return JCAL_REASON_DOES_NOT_FIT;
     }
@@ -143,12 +158,7 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
     if (!(jcal_max(bounds->bound1_rad, bounds->bound2_rad) <= limit_rad)) {
         return JCAL_REASON_UNCERTAIN;
     }
-    const bool hinted = self->cfg.sign_hint != JCAL_SIGN_UNKNOWN;
-    const bool contradicted = (sign->evidence < -SIGN_EVIDENCE_MIN) && (sign->margin < (1.0f / SIGN_MARGIN_MIN));
-    if (hinted && (contradicted || !jcal_hinge_obeys(&self->refine.point, self->cfg.sign_hint))) {
-        return JCAL_REASON_SIGN_OPEN; /* the data insist on the pairing that the user excludes */
-    }
-    if (!hinted && !((sign->evidence > SIGN_EVIDENCE_MIN) && (sign->margin > SIGN_MARGIN_MIN))) {
+    if (!is_hinted(self) && !((sign->evidence > SIGN_EVIDENCE_MIN) && (sign->margin > SIGN_MARGIN_MIN))) {
         return JCAL_REASON_SIGN_OPEN;
     }
     return has_rival(self, jcal_hinge_cost(&self->moments, &self->cfg, &self->point), bounds->inflation)
@@ -156,13 +166,17 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
                : JCAL_REASON_NONE;
 }
 
-static jcal_weak_t weak_for(jcal_reason_t reason, const jcal_hinge_bounds_t *bounds)
+/// The wider bound; where nothing is known of either axis, the one about which its segment turned less.
+static jcal_weak_t weak_for(const jcal_hinge_t *self, jcal_reason_t reason, const jcal_hinge_bounds_t *bounds)
 {
     if (reason == JCAL_REASON_NONE) {
         return JCAL_WEAK_NONE;
     }
     if (reason == JCAL_REASON_SIGN_OPEN) {
         return JCAL_WEAK_SIGN;
+    }
+    if (bounds->bound1_rad == bounds->bound2_rad) {
+        return (self->refine.along[0] <= self->refine.along[1]) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
     }
     return (bounds->bound1_rad > bounds->bound2_rad) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
 }
@@ -178,7 +192,7 @@ static void report(jcal_hinge_t *self, jcal_reason_t found, const jcal_hinge_bou
     const bool ready = self->agreed >= AGREED_MIN;
     const jcal_reason_t reason = (!ready && (found == JCAL_REASON_NONE)) ? JCAL_REASON_UNCERTAIN : found;
     const bool ambiguous = (reason == JCAL_REASON_SIGN_OPEN) || (reason == JCAL_REASON_OTHER_MINIMUM);
-    const jcal_weak_t weak = weak_for(reason, bounds);
+    const jcal_weak_t weak = weak_for(self, reason, bounds);
     verdict->status = (uint8_t)(ready ? JCAL_READY : (ambiguous ? JCAL_AMBIGUOUS : JCAL_COLLECTING));
     verdict->reason = (uint8_t)reason;
     verdict->weak = (uint8_t)weak;
@@ -190,30 +204,39 @@ static void report(jcal_hinge_t *self, jcal_reason_t found, const jcal_hinge_bou
 }
 
 /// Why there are no bounds.
-static jcal_reason_t why_nothing_is_known(const jcal_hinge_t *self)
+static jcal_reason_t why_nothing_is_known(const jcal_hinge_t *self, const sign_t *sign)
 {
     const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
     if (complaint != JCAL_REASON_NONE) {
         return complaint;
     }
+    if (contradicts_hint(self, sign)) {
+        return JCAL_REASON_SIGN_OPEN;
+    }
     if (self->search.rounds < ROUNDS_MANY) {
         return JCAL_REASON_NO_DATA;
     }
-    /* There has been plenty: if the segments turned against each other, no joint holds for long. */
-    return (self->excitation < EXCITATION_MIN) ? JCAL_REASON_NO_MOTION : JCAL_REASON_DOES_NOT_FIT;
+    if (self->excitation < EXCITATION_MIN) {
+        return JCAL_REASON_NO_MOTION;
+    }
+    const float left = jcal_hinge_cost_gyr(&self->moments, &self->point);
+    const float without = jcal_hinge_cost_gyr_alone(&self->moments);
+    return (left < (MISFIT_SHARE * MISFIT_SHARE * without)) ? JCAL_REASON_UNCERTAIN : JCAL_REASON_DOES_NOT_FIT;
 }
 
 void jcal_hinge_judge(jcal_hinge_t *self)
 {
-    const sign_t nothing = {0.0f, 0.0f};
     jcal_hinge_bounds_t bounds = {JCAL_BOUND_UNKNOWN_RAD, JCAL_BOUND_UNKNOWN_RAD, 0.0f};
+    sign_t sign = {0.0f, 0.0f};
+    if (self->has_point) {
+        sign = compare_signs(self);
+    }
     if (!self->has_point || !jcal_hinge_bounds(self, &bounds)) {
-        report(self, why_nothing_is_known(self), &bounds, &nothing);
+        report(self, why_nothing_is_known(self, &sign), &bounds, &sign);
         return;
     }
-    const sign_t sign = compare_signs(self);
     report(self, find_reason(self, &bounds, &sign), &bounds, &sign);
-    if ((self->cfg.sign_hint == JCAL_SIGN_UNKNOWN) && (sign.evidence < SIGN_EVIDENCE_TURN)) {
+    if (!is_hinted(self) && (sign.evidence < SIGN_EVIDENCE_TURN)) {
         jcal_hinge_turn_round(self);
     }
 }

@@ -105,6 +105,12 @@ float jcal_hinge_cost_gyr(const jcal_hinge_moments_t *moments, const jcal_hinge_
     return jcal_sym_quadratic(moments->gyr, JCAL_HINGE_FEATURES, f);
 }
 
+float jcal_hinge_cost_gyr_alone(const jcal_hinge_moments_t *moments)
+{
+    const float f[JCAL_HINGE_FEATURES] = {1.0f, 1.0f, 1.0f, 0.0f, 0.0f, 0.0f, -1.0f, -1.0f, -1.0f, 0.0f, 0.0f, 0.0f};
+    return jcal_sym_quadratic(moments->gyr, JCAL_HINGE_FEATURES, f);
+}
+
 float jcal_hinge_cost_acc(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg,
                           const jcal_hinge_point_t *point)
 {

@@ -37,6 +37,9 @@ void jcal_hinge_coefficients(const jcal_hinge_point_t *point, float f[JCAL_HINGE
 /// Cost of the gyroscope part, f' M f.
 float jcal_hinge_cost_gyr(const jcal_hinge_moments_t *moments, const jcal_hinge_point_t *point);
 
+/// The same without any axes: what the difference of |w1|^2 and |w2|^2 costs.
+float jcal_hinge_cost_gyr_alone(const jcal_hinge_moments_t *moments);
+
 /// Cost of the accelerometer part with the constant c eliminated under its prior.
 float jcal_hinge_cost_acc(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg,
                           const jcal_hinge_point_t *point);

@@ -41,10 +41,14 @@ void jcal_hinge_point_move(jcal_hinge_point_t *point, const float d[4])
     axis_move(&point->axis2, d[2], d[3]);
 }
 
+static bool same_line(jcal_vec3_t a, jcal_vec3_t b)
+{
+    return fabsf(jcal_vec3_dot(a, b)) > SAME_COSINE;
+}
+
 bool jcal_hinge_same_lines(const jcal_hinge_point_t *a, const jcal_hinge_point_t *b)
 {
-    return (fabsf(jcal_vec3_dot(a->axis1.j, b->axis1.j)) > SAME_COSINE) &&
-           (fabsf(jcal_vec3_dot(a->axis2.j, b->axis2.j)) > SAME_COSINE);
+    return same_line(a->axis1.j, b->axis1.j) && same_line(a->axis2.j, b->axis2.j);
 }
 
 bool jcal_hinge_same_pairing(const jcal_hinge_point_t *a, const jcal_hinge_point_t *b)

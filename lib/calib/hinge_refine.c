@@ -38,7 +38,8 @@
 #define PULL_NOISE 6000.0f
 /// The prior of the biases counts this many times the power of the residual, so that the estimate weighs it as the bounds do.
 #define BIAS_PRIOR 2.0f
-/// Damping of a step beside a unit diagonal: several times what rounding does to a pivot.
+/// Damping of a step beside a unit diagonal: several times what rounding does to a pivot. Information about the unknowns may
+/// differ by many powers of ten, and a combination of them may be open; each block brings another step.
 #define DAMPING 2e-5f
 
 /// A longer step of an axis than this means that its sums were linearised too far away, rad; it is cut at the second.
@@ -220,26 +221,6 @@ static void move(jcal_hinge_refine_t *self, const float d[UNKNOWNS])
     give_up_what_is_far(self, 1u, &self->point.axis2, &self->anchor.j2);
 }
 
-/// x (n) <- m^-1 x, with a trace of damping: information about the unknowns may differ by many powers of ten, and a
-/// combination of them may be open. Each block brings another step, so that what a step leaves is made up for. m is lost.
-static bool solve(float *m, unsigned n, float *x)
-{
-    float scale[UNKNOWNS];
-    jcal_chol_scale(m, n, scale);
-    for (unsigned i = 0u; i < n; ++i) {
-        m[jcal_sym_at(i, i)] += DAMPING;
-        x[i] *= scale[i];
-    }
-    if (jcal_chol_factor_in_place(m, n, NULL) != JCAL_OK) {
-        return false;
-    }
-    jcal_chol_solve(m, n, x, x);
-    for (unsigned i = 0u; i < n; ++i) {
-        x[i] *= scale[i];
-    }
-    return true;
-}
-
 /// gain <- H_tb H_bb^-1 from the whole matrix. False if that is singular.
 static bool find_gain(jcal_hinge_refine_t *self, const float matrix[36])
 {
@@ -257,7 +238,7 @@ static bool find_gain(jcal_hinge_refine_t *self, const float matrix[36])
         for (unsigned k = 0u; k < TILTS; ++k) {
             self->gain[i][k] = matrix[jcal_sym_at(TILTS + k, i)];
         }
-        if (!solve(factor, TILTS, self->gain[i])) {
+        if (jcal_chol_solve_damped(factor, TILTS, DAMPING, self->gain[i]) != JCAL_OK) {
             return false;
         }
     }
@@ -285,7 +266,7 @@ static bool find_step(jcal_hinge_t *engine, float d[UNKNOWNS])
         d[i] = (pull * away[i]) - (self->gradient[i] + acc.gradient[i]);
         d[TILTS + i] = -(self->gradient[TILTS + i] + (prior * self->bias[i]));
     }
-    return find_gain(self, matrix) && solve(matrix, UNKNOWNS, d);
+    return find_gain(self, matrix) && (jcal_chol_solve_damped(matrix, UNKNOWNS, DAMPING, d) == JCAL_OK);
 }
 
 /// Goes to where the sums have their minimum; an axis that is far from it begins anew on the way there.
@@ -373,8 +354,8 @@ static void close_block(jcal_hinge_t *engine)
         const float cost_other = jcal_max(power - (2.0f * jcal_plane_norm(block->match_other)), 0.0f);
         add_block(self, reach);
         self->cost += cost;
-        const float floor = SIGN_FLOOR * jcal_hinge_refine_noise(self) * block->units;
-        const float share = block->time_s / (power + floor);
+        const float least = SIGN_FLOOR * jcal_hinge_refine_noise(self) * block->units;
+        const float share = block->time_s / (power + least);
         self->same += share * cost;
         self->other += share * cost_other;
         self->sign_time_s += share * power;
