@@ -8,6 +8,7 @@ tell from the original, with the reason.
 MODEL = "lib/calib/hinge_model.c"
 BLOCK = "lib/calib/hinge_block.c"
 REFINE = "lib/calib/hinge_refine.c"
+FORGET = "lib/calib/hinge_forget.c"
 BOUNDS = "lib/calib/hinge_bounds.c"
 JUDGE = "lib/calib/hinge_judge.c"
 SEARCH = "lib/calib/hinge_search.c"
@@ -65,7 +66,7 @@ MUTATIONS = [
      "d[i] = (pull * away[i]) - (self->gradient[i] - acc.gradient[i]);", "accelerometer part of a step"),
     (REFINE, "out[0] = sign * jcal_vec3_dot(to, axis->u);",
      "out[0] = -sign * jcal_vec3_dot(to, axis->u);", "direction of the pull"),
-    (REFINE, "const float share = (1.0f - keep) * column[i] / pivot;",
+    (FORGET, "const float share = (1.0f - keep) * column[i] / pivot;",
      "const float share = keep * column[i] / pivot;", "forgetting one axis"),
     (REFINE,
      "const float cost_other = jcal_max(power - (2.0f * jcal_plane_norm(block->match_other)), 0.0f);",

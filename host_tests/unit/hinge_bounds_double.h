@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// The bounds of lib/calib/hinge_bounds.h in double precision: information by elimination instead of factors, eigenvectors
-/// by Jacobi's rotations.
+/// The bounds of lib/calib/hinge_bounds.h in double precision: information by elimination instead of factors,
+/// eigenvectors by Jacobi's rotations.
 #ifndef HINGE_BOUNDS_DOUBLE_H
 #define HINGE_BOUNDS_DOUBLE_H
 
@@ -151,7 +151,10 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
         const double bound = fmin(sqrt((3.84 * (half_trace + root)) + (2.15 * (half_trace - root))), 1.57079633);
         /* The model is linear where a tilt changes the rate across the axis by less than a fifth. */
         const double reach = 0.2 * sqrt((double)r->across / (double)r->along[axis]);
-        out[axis] = fmin(bound * fmax(1.0, bound / reach), 1.57079633);
+        /* And only what has turned about its axis says anything: 0.03 rad^2/s in readings of 0.05 s. */
+        const double assumed = (double)self->cfg.gyr_noise_rad_s;
+        const bool turned = (double)r->along[axis] * assumed * assumed * 0.05 > 0.03;
+        out[axis] = turned ? fmin(bound * fmax(1.0, bound / reach), 1.57079633) : 1.57079633;
     }
 }
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// The equations of lib/calib/hinge_refine.h in double precision: residuals of a block as a function of tilts and biases,
-/// derivatives by central differences.
+/// The equations of lib/calib/hinge_refine.h in double precision: residuals of a block as a function of tilts and
+/// biases, derivatives by central differences.
 #ifndef HINGE_REFINE_DOUBLE_H
 #define HINGE_REFINE_DOUBLE_H
 

@@ -75,7 +75,7 @@ static void a_rival_that_costs_hardly_more_makes_the_joint_ambiguous(void)
     assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
     set_rival(engine.point.axis1.u, engine.point.axis2.u); /* elsewhere, and far worse */
     assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
-    /* A residual that is the same for all axes raises both costs until their ratio is near 1: it fits |w1|^2 + |w2|^2. */
+    /* A residual that is the same for all axes raises both costs until their ratio is near 1. */
     const float isotropic[JCAL_HINGE_FEATURES] = {1.0f,  1.0f,  1.0f,  0.0f, 0.0f, 0.0f,
                                                   -1.0f, -1.0f, -1.0f, 0.0f, 0.0f, 0.0f};
     const float cost = jcal_hinge_cost_of_rival(&engine);
@@ -142,8 +142,8 @@ static void set_fit(float error_rad_s)
     engine.refine.cost = engine.refine.joint * error_rad_s * error_rad_s;
 }
 
-/* The specific forces say nothing of the pairing; the rates have compared both for `time_s`, the other costing `ratio` times
-   as much. Evidence: half of ln(ratio) for each 0.2 s. */
+/* The specific forces say nothing of the pairing; the rates have compared both for `time_s`, the other costing `ratio`
+   times as much. Evidence: half of ln(ratio) for each 0.2 s. */
 static void rates_alone_say(float time_s, float ratio)
 {
     jcal_sym_zero(engine.moments.acc, 7u);
@@ -337,12 +337,12 @@ static void without_bounds_after_many_rounds_it_is_known_why(void)
         engine.has_point = (blind == 0);
         jcal_hinge_refine_restart(&engine.refine, &engine.point);
         engine.excitation = 1.0f;
-        rates_leave_16_of_36_and(90.0f); /* 12.7 %; limit: 0.35^2, 12.25 % */
+        rates_leave_16_of_36_and(480.0f); /* 3.1 %; limit: 3 % */
         engine.search.rounds = 15;
         assert_nothing_known(JCAL_REASON_NO_DATA, JCAL_HINT_MOVE_JOINT);
         engine.search.rounds = 16;
         assert_nothing_known(JCAL_REASON_DOES_NOT_FIT, JCAL_HINT_CHECK_SENSORS);
-        rates_leave_16_of_36_and(100.0f); /* 11.8 %: the lengths of the rates do fit */
+        rates_leave_16_of_36_and(520.0f); /* 2.9 %: the lengths of the rates do fit */
         assert_nothing_known(JCAL_REASON_UNCERTAIN, JCAL_HINT_MOVE_SEGMENT1);
         engine.excitation = 0.029f;
         assert_nothing_known(JCAL_REASON_NO_MOTION, JCAL_HINT_MOVE_JOINT);

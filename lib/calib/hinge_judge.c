@@ -19,6 +19,8 @@
 /// The disagreement across the axis must be small beside the difference of the rates, or no hinge explains the data.
 #define MISFIT_SHARE 0.35f
 #define MISFIT_NOISE_RAD_S 0.02f
+/// The same by the squared form of (24): share of what the difference of the rates costs without any axes.
+#define UNEXPLAINED_MAX 0.1f
 
 /// Durations after which residuals count as independent, s, when the pairings are compared.
 #define ACC_MEMORY_S 0.3f
@@ -103,6 +105,13 @@ static bool fits(const jcal_hinge_t *self)
     return error < ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S);
 }
 
+/// True if some hinge explains the lengths of the rates, whatever the refined axes are doing.
+static bool is_explained(const jcal_hinge_t *self)
+{
+    const float left = jcal_hinge_cost_gyr(&self->moments, &self->point);
+    return left < (UNEXPLAINED_MAX * jcal_hinge_cost_gyr_alone(&self->moments));
+}
+
 static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
 {
     switch (reason) {
@@ -150,7 +159,7 @@ static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_boun
     if (contradicts_hint(self, sign)) {
         return JCAL_REASON_SIGN_OPEN;
     }
-    if (!fits(self)) {
+    if (!fits(self) || !is_explained(self)) {
         return JCAL_REASON_DOES_NOT_FIT;
     }
     const float limit_rad = (self->verdict.status == (uint8_t)JCAL_READY) ? self->cfg.max_bound_rad
@@ -219,9 +228,7 @@ static jcal_reason_t why_nothing_is_known(const jcal_hinge_t *self, const sign_t
     if (self->excitation < EXCITATION_MIN) {
         return JCAL_REASON_NO_MOTION;
     }
-    const float left = jcal_hinge_cost_gyr(&self->moments, &self->point);
-    const float without = jcal_hinge_cost_gyr_alone(&self->moments);
-    return (left < (MISFIT_SHARE * MISFIT_SHARE * without)) ? JCAL_REASON_UNCERTAIN : JCAL_REASON_DOES_NOT_FIT;
+    return is_explained(self) ? JCAL_REASON_UNCERTAIN : JCAL_REASON_DOES_NOT_FIT;
 }
 
 void jcal_hinge_judge(jcal_hinge_t *self)

@@ -51,81 +51,14 @@
 #define ANCHOR_REACH 0.5f
 #define ANCHOR_SHARE 0.5f
 
+/// An axis is known if the information about it is this many times the pull; cos 11.5 deg: the other one is where it was.
+#define KNOWN_MIN 20.0f
+#define SAME_COSINE 0.98f
+
 /// What could match must be this many times the residual to count fully for the pairing.
 #define SIGN_FLOOR 8.0f
 /// Residual power below which nothing is believed, in units of the assumed noise power.
 #define NOISE_MIN 0.01f
-
-/// What says how well the residuals are known, not what they say.
-static void fade_counts(jcal_hinge_refine_t *self, float share)
-{
-    self->information *= share;
-    self->information2 *= share;
-    self->cost *= share;
-    self->units *= share;
-    self->joint *= share;
-    self->across *= share;
-    self->blocks *= share;
-    self->time_s *= share;
-    self->same *= share;
-    self->other *= share;
-    self->sign_time_s *= share;
-}
-
-void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share)
-{
-    jcal_sym_scale(self->matrix, UNKNOWNS, share);
-    jcal_sym_scale(self->scatter, TILTS, share);
-    for (unsigned i = 0u; i < UNKNOWNS; ++i) {
-        self->gradient[i] *= share;
-    }
-    for (unsigned i = 0u; i < TILTS; ++i) {
-        self->lean[i] *= share;
-    }
-    for (unsigned axis = 0u; axis < 2u; ++axis) {
-        self->along[axis] *= share;
-        self->lever[axis] *= share;
-    }
-    fade_counts(self, share);
-}
-
-/// Eliminates a share of unknown p from matrix and gradient: what is left of it counts `keep`, and what the others owe to it
-/// likewise. keep = 0 is the information about the others alone.
-static void eliminate(jcal_hinge_refine_t *self, unsigned p, float keep)
-{
-    const float pivot = jcal_max(self->matrix[jcal_sym_at(p, p)], 1e-20f);
-    float column[UNKNOWNS];
-    for (unsigned i = 0u; i < UNKNOWNS; ++i) {
-        column[i] = self->matrix[jcal_sym_at(i, p)];
-    }
-    const float of_p = self->gradient[p];
-    for (unsigned i = 0u; i < UNKNOWNS; ++i) {
-        const float share = (1.0f - keep) * column[i] / pivot;
-        for (unsigned k = 0u; k <= i; ++k) {
-            self->matrix[jcal_sym_at(i, k)] -= share * column[k];
-        }
-        self->gradient[i] -= share * of_p;
-    }
-}
-
-/// Gives up all but a share of what the sums know of one axis: the other axis keeps what it owes to itself.
-static void forget(jcal_hinge_refine_t *self, unsigned axis, float keep)
-{
-    const unsigned first = 2u * axis;
-    for (unsigned i = 0u; i < TILTS; ++i) {
-        for (unsigned k = 0u; k <= i; ++k) {
-            const bool touches = ((i / 2u) == axis) || ((k / 2u) == axis);
-            self->scatter[jcal_sym_at(i, k)] *= touches ? keep : 1.0f;
-        }
-    }
-    for (unsigned i = first; i < (first + 2u); ++i) {
-        eliminate(self, i, keep);
-        self->lean[i] *= keep;
-    }
-    self->along[axis] *= keep;
-    self->lever[axis] *= keep;
-    fade_counts(self, keep);
-}
 
 void jcal_hinge_refine_restart(jcal_hinge_refine_t *self, const jcal_hinge_point_t *point)
 {
@@ -136,6 +69,31 @@ void jcal_hinge_refine_restart(jcal_hinge_refine_t *self, const jcal_hinge_point
     self->anchor.j2 = at.axis2.j;
     self->phase.re = 1.0f;
     jcal_hinge_block_begin(&self->block);
+}
+
+/// True if the sums say more of an axis than the pull does.
+static bool is_known(const jcal_hinge_refine_t *self, unsigned axis)
+{
+    const float about =
+        self->matrix[jcal_sym_at(2u * axis, 2u * axis)] + self->matrix[jcal_sym_at((2u * axis) + 1u, (2u * axis) + 1u)];
+    return about > (KNOWN_MIN * jcal_hinge_refine_pull(self));
+}
+
+void jcal_hinge_refine_go(jcal_hinge_refine_t *self, const jcal_hinge_point_t *point)
+{
+    jcal_hinge_axis_t *const axes[2] = {&self->point.axis1, &self->point.axis2};
+    const jcal_vec3_t to[2] = {point->axis1.j, point->axis2.j};
+    for (unsigned axis = 0u; axis < 2u; ++axis) {
+        const unsigned other = 1u - axis;
+        const float same = jcal_vec3_dot(axes[other]->j, to[other]);
+        if (is_known(self, other) && !is_known(self, axis) && (fabsf(same) > SAME_COSINE)) {
+            jcal_hinge_axis_set(axes[axis], jcal_vec3_scale(to[axis], (same < 0.0f) ? -1.0f : 1.0f));
+            self->anchor.j1 = self->point.axis1.j;
+            self->anchor.j2 = self->point.axis2.j;
+            return;
+        }
+    }
+    jcal_hinge_refine_restart(self, point);
 }
 
 void jcal_hinge_refine_interrupt(jcal_hinge_refine_t *self)
@@ -188,7 +146,7 @@ static void give_up_what_is_far(jcal_hinge_refine_t *self, unsigned axis, const 
     const float reach = ANCHOR_REACH * sqrtf(self->across / jcal_max(self->along[axis], 1e-20f));
     if (jcal_gn_length(away, 2u) > jcal_min(ANCHOR_RAD, reach)) {
         *anchor = now->j;
-        forget(self, axis, ANCHOR_SHARE);
+        jcal_hinge_refine_forget(self, axis, ANCHOR_SHARE);
     }
 }
 
@@ -288,12 +246,12 @@ static void follow(jcal_hinge_t *engine)
     }
     move(self, d);
     for (unsigned axis = 0u; axis < 2u; ++axis) {
-        if (jumps[axis]) {
-            forget(self, axis, 0.0f);
+        if (jumps[axis] && is_known(self, axis)) {
+            jcal_hinge_refine_forget(self, axis, 0.0f);
         }
     }
     if (!jcal_hinge_same_lines(&engine->point, &self->point)) {
-        jcal_hinge_refine_restart(self, &engine->point);
+        jcal_hinge_refine_go(self, &engine->point);
     }
 }
 

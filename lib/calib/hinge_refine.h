@@ -35,6 +35,10 @@ typedef struct {
 /// Begins anew at a point.
 void jcal_hinge_refine_restart(jcal_hinge_refine_t *self, const jcal_hinge_point_t *point);
 
+/// Goes over to another estimate of the coarse search. Begins anew there, unless all that differs is an axis of which nothing is
+/// known yet: the other one goes on.
+void jcal_hinge_refine_go(jcal_hinge_refine_t *self, const jcal_hinge_point_t *point);
+
 /// The samples that follow are not continuous with those before.
 void jcal_hinge_refine_interrupt(jcal_hinge_refine_t *self);
 
@@ -46,6 +50,9 @@ void jcal_hinge_refine_add(jcal_hinge_t *engine, const jcal_hinge_sample_t *samp
 
 /// Multiplies all sums by a share: what they rest on counts so much less.
 void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share);
+
+/// Gives up all but a share of what the sums know of one axis (0, 1); the other one keeps what it owes to itself alone.
+void jcal_hinge_refine_forget(jcal_hinge_refine_t *self, unsigned axis, float keep);
 
 /// Effective number of blocks, each counted by its information.
 float jcal_hinge_refine_blocks(const jcal_hinge_refine_t *self);

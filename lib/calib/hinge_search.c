@@ -176,7 +176,7 @@ static void begin_anew(jcal_hinge_t *self, const jcal_hinge_point_t *point)
     self->agreed = 0u;
     self->verdict.status = (uint8_t)JCAL_COLLECTING;
     self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
-    jcal_hinge_refine_restart(&self->refine, point);
+    jcal_hinge_refine_go(&self->refine, point);
 }
 
 /// Another minimum is better: it becomes the estimate, and the old one the rival.

@@ -24,6 +24,7 @@ ENGINE = "stream engine"
 REFERENCES = (LENGTHS, *BLOCKS_S)
 REFERENCES_SIMULATED = (LENGTHS, VECTORS)
 LENGTHS_S = (3, 5, 10)
+COLUMNS = ("90 %", "largest", "from vectors: median", "90 %", "largest")
 WHOLE_DEG = 0.1  # engine and reference on whole rig recordings
 WINDOW_S, WINDOW_DEG = 10, 0.3  # median over windows of this length
 
@@ -85,8 +86,9 @@ def compare(methods: Iterable[str], rec: Recording, start: Axes, truth: Axes, **
 
 def make_spec(kind: str, index: int) -> HingeSpec:
     rng = np.random.default_rng([list(CLASSES).index(kind), index, 3539])
-    return HingeSpec(motions=((MOTIONS[index % len(MOTIONS)], DURATION_S),), rate_hz=RATES_HZ[rng.integers(len(RATES_HZ))],
-                     seed=int(rng.integers(2**31)), speed=float(rng.uniform(0.7, 2.5)), **CLASSES[kind].draw(rng))
+    return HingeSpec(motions=((MOTIONS[index % len(MOTIONS)], DURATION_S),),
+                     rate_hz=RATES_HZ[rng.integers(len(RATES_HZ))], seed=int(rng.integers(2**31)),
+                     speed=float(rng.uniform(0.7, 2.5)), **CLASSES[kind].draw(rng))
 
 
 def measure_simulated(job: tuple[str, int]) -> Outcome:
@@ -124,8 +126,8 @@ def cells(method: str, mine: list[Outcome]) -> list[str]:
 def list_remarkable(report: Report, outcomes: list[Outcome]) -> None:
     mine = [o for o in outcomes if o.remarkable]
     if mine:
-        report.text(f"Where the {ENGINE} ends more than {MAX_ERROR_DEG:g} deg off, or was `ready` at any time with more than "
-                    "that or the wrong pairing (false ready):")
+        report.text(f"Where the {ENGINE} ends more than {MAX_ERROR_DEG:g} deg off, or was `ready` at any time with more "
+                    "than that or the wrong pairing (false ready):")
         report.table(["data", "number", "s", "motion", f"{ENGINE}, end", VECTORS, "at the end", "false ready"],
                      [[o.source, o.index, f"{o.length_s:g}", o.motion or "-", number(o.from_truth[ENGINE]),
                        number(o.from_truth[VECTORS]), o.end, "yes" if o.false_ready else "-"] for o in mine[:LISTED]])
@@ -133,38 +135,35 @@ def list_remarkable(report: Report, outcomes: list[Outcome]) -> None:
 
 def describe_rig(settings: Settings, report: Report, outcomes: list[Outcome]) -> None:
     wholes = [o for o in outcomes if not o.length_s]
+    methods = (*REFERENCES, ENGINE)
     report.text(f"Whole rig recordings: from {VECTORS}, and in brackets from the nominal axes, which are good to about "
                 "1 deg.")
-    methods = (*REFERENCES, ENGINE)
     report.table(["recording", *methods], [[o.source, *(f"{number(o.from_vectors[m], 3)} ({number(o.from_truth[m])})"
                                                         for m in methods)] for o in wholes])
-    report.text(f"Consecutive windows of rig_1D_01, 02 and 04{' (every third)' if settings.quick else ''} with an rms joint "
-                f"rate above {INFORMATIVE_RAD_S} rad/s, each given to a fresh instance. From whole: from the axes by "
-                f"{VECTORS} on the whole recording, where the references start. From vectors: from {VECTORS} on the same "
-                "window.")
-    rows = []
-    for length_s in LENGTHS_S:
-        mine = [o for o in outcomes if o.length_s == length_s]
-        rows += [[f"{length_s} s", method, len(mine), *cells(method, mine)] for method in methods]
-    report.table(["length", "method", "windows", "from whole: median", "90 %", "largest", "from vectors: median", "90 %",
-                  "largest"], rows)
+    every = " (every third)" if settings.quick else ""
+    report.text(f"Consecutive windows of rig_1D_01, 02 and 04{every} with an rms joint rate above {INFORMATIVE_RAD_S} "
+                f"rad/s, each given to a fresh instance. From whole: from the axes by {VECTORS} on the whole recording, "
+                f"where the references start. From vectors: from {VECTORS} on the same window.")
+    windows = {length_s: [o for o in outcomes if o.length_s == length_s] for length_s in LENGTHS_S}
+    report.table(["length", "method", "windows", "from whole: median", *COLUMNS],
+                 [[f"{length_s} s", method, len(mine), *cells(method, mine)]
+                  for length_s, mine in windows.items() for method in methods])
     list_remarkable(report, [o for o in outcomes if o.length_s])
     for o in wholes:
         report.require_most(f"{o.source}: {ENGINE} from {VECTORS}", o.from_vectors[ENGINE], WHOLE_DEG, " deg")
     report.require_most(f"rig, {WINDOW_S} s windows: median of {ENGINE} from {VECTORS}",
-                        median([o.from_vectors[ENGINE] for o in outcomes if o.length_s == WINDOW_S]), WINDOW_DEG, " deg")
+                        median([o.from_vectors[ENGINE] for o in windows[WINDOW_S]]), WINDOW_DEG, " deg")
 
 
 def describe_simulated(report: Report, outcomes: list[Outcome]) -> None:
-    report.text(f"{len(outcomes)} simulated runs of {DURATION_S:g} s: motions {', '.join(MOTIONS)} of OLS20 in turn, random "
-                "mounting, lever arms, rate (" + ", ".join(f"{rate:g}" for rate in RATES_HZ) + " Hz) and speed (0.7 to 2.5 "
-                "rad/s rms). Classes: clean (the paper's noise), noise (5 times it), bias (1 m/s^2 and 1 deg/s), soft (soft "
-                "tissue up to 1.5 deg rms). Seeds: class and number. Errors against the truth, where the references "
-                "start.")
+    rates = ", ".join(f"{rate:g}" for rate in RATES_HZ)
+    report.text(f"{len(outcomes)} simulated runs of {DURATION_S:g} s: motions {', '.join(MOTIONS)} of OLS20 in turn, "
+                f"random mounting, lever arms, rate ({rates} Hz) and speed (0.7 to 2.5 rad/s rms). Classes: clean (the "
+                "paper's noise), noise (5 times it), bias (1 m/s^2 and 1 deg/s), soft (soft tissue up to 1.5 deg rms). "
+                "Seeds: class and number. Errors against the truth, where the references start.")
     for title, key in (("class", lambda o: o.source), ("motion", lambda o: o.motion)):
         groups = {value: [o for o in outcomes if key(o) == value] for value in dict.fromkeys(map(key, outcomes))}
-        report.table([title, "method", "runs", "error: median", "90 %", "largest", "from vectors: median", "90 %",
-                      "largest"],
+        report.table([title, "method", "runs", "error: median", *COLUMNS],
                      [[value, method, len(mine), *cells(method, mine)]
                       for value, mine in groups.items() for method in (*REFERENCES_SIMULATED, ENGINE)])
     list_remarkable(report, outcomes)
@@ -178,11 +177,11 @@ def measure(settings: Settings, report: Report) -> None:
            for o in found]
     simulated = run_jobs(measure_simulated, numbered(dict.fromkeys(CLASSES, per_class), None), "reference, simulated",
                          settings)
-    report.text("Float64 numpy (tools/python/jointcal_tools/common_rate.py) beside the stream engine. Lengths: METHOD section "
-                "2. Vectors: section 4, with blocks of the given length. Both with the accelerometer part and bias states, "
-                "over all samples at once, to the minimum nearest to a start that is right. Stream engine: its estimate "
-                "at the end, from nothing, whatever its status. Angles are those of the worse axis, deg; 180 minus it where "
-                "the pairing is wrong.")
+    report.text("Float64 numpy (tools/python/jointcal_tools/common_rate.py) beside the stream engine. Lengths: METHOD "
+                "section 2. Vectors: section 4, with blocks of the given length. Both with the accelerometer part and "
+                "bias states, over all samples at once, to the minimum nearest to a start that is right. Stream engine: "
+                "its estimate at the end, from nothing, whatever its status. Angles are those of the worse axis, deg; "
+                "180 minus it where the pairing is wrong.")
     if names:
         describe_rig(settings, report, rig)
     else:
