@@ -100,7 +100,7 @@ static void add_powers(jcal_hinge_refine_t *self, const jcal_hinge_sample_t *sam
     const jcal_hinge_view_t *const view2 = &self->last2;
     const float joint = view2->along - view1->along;
     const float rate = sqrtf(sample->w1_2 + sample->w2_2);
-    self->joint += weight * joint * joint;
+    self->block.joint += weight * joint * joint;
     self->along[0] += weight * view1->along * view1->along;
     self->along[1] += weight * view2->along * view2->along;
     self->lever[0] += weight * fabsf(view1->along) * rate;

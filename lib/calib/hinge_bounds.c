@@ -18,6 +18,8 @@
 #define PRIOR_BLOCKS 6.0f
 /// Assumed scatter of a block's score over that of independent readings.
 #define PRIOR_CORRELATION 1.0f
+/// Least scatter, in the same measure.
+#define SCATTER_MIN 0.25f
 /// Small-sample factor 1 + this / blocks.
 #define SMALL_SAMPLE 1.0f
 
@@ -173,7 +175,8 @@ bool jcal_hinge_bounds(const jcal_hinge_t *self, jcal_hinge_bounds_t *out)
         const float *const v = &vectors[TILTS * k];
         const float met = jcal_sym_quadratic(refine->scatter, TILTS, v) /
                           jcal_max(jcal_sym_quadratic(information.all, TILTS, v), 1e-20f);
-        const float inflation = inflate(met, noise, blocks);
+        /* Moving sums along with the axes is not exact: never less than what quick noise leaves. */
+        const float inflation = inflate(jcal_max(met, SCATTER_MIN * noise), noise, blocks);
         float variance = OPEN_BOUND2;
         if (values[k] > OPEN_INFORMATION) {
             const float pulled = pull * COARSE_RAD / values[k];

@@ -12,8 +12,6 @@
 /// What says how well the residuals are known, not what they say.
 static void fade_counts(jcal_hinge_refine_t *self, float share)
 {
-    self->information *= share;
-    self->information2 *= share;
     self->cost *= share;
     self->units *= share;
     self->joint *= share;
@@ -39,11 +37,12 @@ void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share)
         self->along[axis] *= share;
         self->lever[axis] *= share;
     }
+    self->information *= share;
+    self->information2 *= share;
     fade_counts(self, share);
 }
 
-/// Eliminates a share of unknown p from matrix and gradient: what is left of it counts `keep`, and what the others owe to it
-/// likewise. keep = 0 is the information about the others alone.
+/// Eliminates a share 1 - keep of unknown p from matrix and gradient; keep = 0 leaves the information about the others alone.
 static void eliminate(jcal_hinge_refine_t *self, unsigned p, float keep)
 {
     const float pivot = jcal_max(self->matrix[jcal_sym_at(p, p)], 1e-20f);
@@ -61,7 +60,7 @@ static void eliminate(jcal_hinge_refine_t *self, unsigned p, float keep)
     }
 }
 
-void jcal_hinge_refine_forget(jcal_hinge_refine_t *self, unsigned axis, float keep)
+void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, float keep)
 {
     const unsigned first = 2u * axis;
     for (unsigned i = 0u; i < TILTS; ++i) {
@@ -76,5 +75,12 @@ void jcal_hinge_refine_forget(jcal_hinge_refine_t *self, unsigned axis, float ke
     }
     self->along[axis] *= keep;
     self->lever[axis] *= keep;
+}
+
+void jcal_hinge_refine_forget(jcal_hinge_refine_t *self, unsigned axis, float keep)
+{
+    jcal_hinge_refine_forget_axis(self, axis, keep);
+    self->information *= keep;
+    self->information2 *= keep;
     fade_counts(self, keep);
 }

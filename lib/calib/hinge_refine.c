@@ -105,7 +105,8 @@ void jcal_hinge_refine_interrupt(jcal_hinge_refine_t *self)
 
 float jcal_hinge_refine_blocks(const jcal_hinge_refine_t *self)
 {
-    return (self->information * self->information) / jcal_max(self->information2, 1e-20f);
+    const float counted = (self->information * self->information) / jcal_max(self->information2, 1e-20f);
+    return jcal_min(counted, 2.0f * self->blocks);
 }
 
 float jcal_hinge_refine_noise(const jcal_hinge_refine_t *self)
@@ -294,6 +295,7 @@ static void add_block(jcal_hinge_refine_t *self, float reach)
     self->information2 += trace * trace;
     self->blocks += 1.0f;
     self->units += block->units;
+    self->joint += block->joint;
     self->time_s += block->time_s;
 }
 
@@ -324,6 +326,8 @@ static void close_block(jcal_hinge_t *engine)
         follow(engine);
     } else if (!(self->blocks > 0.0f)) { /* nothing lost: the moments may know better by now */
         self->point = engine->point;
+    } else if (!jcal_hinge_same_lines(&engine->point, &self->point)) {
+        jcal_hinge_refine_go(self, &engine->point); /* no block would ever be sure here */
     } else {
         /* the phase has been found again */
     }

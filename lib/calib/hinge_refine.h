@@ -54,7 +54,10 @@ void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share);
 /// Gives up all but a share of what the sums know of one axis (0, 1); the other one keeps what it owes to itself alone.
 void jcal_hinge_refine_forget(jcal_hinge_refine_t *self, unsigned axis, float keep);
 
-/// Effective number of blocks, each counted by its information.
+/// The same, but what is known of the residuals stays.
+void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, float keep);
+
+/// Effective number of blocks, each counted by its information; at most twice those since an axis began anew.
 float jcal_hinge_refine_blocks(const jcal_hinge_refine_t *self);
 
 /// Power of the residual, in units of the assumed noise power per direction.
