@@ -132,7 +132,8 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
             const double lever = (double)r->lever[i / 2];
             systematic += v[i] * v[i] * mismatch * mismatch * lever * lever / (double)r->along[i / 2] / (3.84 + 2.15);
         }
-        const double inflation = dblend(dquadratic(scatter, v) / dquadratic(all, v), noise, blocks);
+        const double ratio = dquadratic(scatter, v) / dquadratic(all, v);
+        const double inflation = dblend(fmax(ratio, 0.25 * noise), noise, blocks);
         const double pulled = pull * 0.05 / sure[k][k];
         const bool open = !(sure[k][k] > 1.0);
         const double variance = open ? 10.0 : (((inflation + systematic) / sure[k][k]) + (pulled * pulled));

@@ -175,8 +175,9 @@ bool jcal_hinge_bounds(const jcal_hinge_t *self, jcal_hinge_bounds_t *out)
         const float *const v = &vectors[TILTS * k];
         const float met = jcal_sym_quadratic(refine->scatter, TILTS, v) /
                           jcal_max(jcal_sym_quadratic(information.all, TILTS, v), 1e-20f);
-        /* Moving sums along with the axes is not exact: never less than what quick noise leaves. */
-        const float inflation = inflate(jcal_max(met, SCATTER_MIN * noise), noise, blocks);
+        /* Moving sums along with the axes is not exact: never less than what quick noise leaves; NaN stays. */
+        const float least = SCATTER_MIN * noise;
+        const float inflation = inflate((met < least) ? least : met, noise, blocks);
         float variance = OPEN_BOUND2;
         if (values[k] > OPEN_INFORMATION) {
             const float pulled = pull * COARSE_RAD / values[k];
