@@ -88,13 +88,34 @@ static inline void dinformation(const jcal_hinge_refine_t *refine, double prior,
     }
 }
 
+/// 95 % radius of one axis for its covariance, wider where the sums are hardly linear.
+static inline double dbound(const jcal_hinge_t *self, int axis, double blocks, const double c[3])
+{
+    const double along = (double)self->refine.along[axis];
+    const double across = (double)self->refine.across;
+    /* Eigenvalues of the 2 x 2 block by trace and determinant. */
+    const double half_trace = 0.5 * (c[0] + c[2]);
+    const double root = sqrt(fmax((half_trace * half_trace) - ((c[0] * c[2]) - (c[1] * c[1])), 0.0));
+    const double bound = fmin(sqrt((3.84 * (half_trace + root)) + (2.15 * (half_trace - root))), 1.57079633);
+    /* The model is linear where a tilt changes the rate across the axis by less than a fifth. */
+    const double reach = 0.2 * sqrt(across / along);
+    /* Nearly planar motion needs ten blocks. */
+    const double few = 1.0 + (10.0 / blocks / (1.0 + (100.0 * across / along)));
+    /* And only what has turned about its axis says anything: 0.03 rad^2/s in readings of 0.05 s. */
+    const double assumed = (double)self->cfg.gyr_noise_rad_s;
+    const bool turned = along * assumed * assumed * 0.05 > 0.03;
+    return turned ? fmin(few * bound * fmax(1.0, bound / reach), 1.57079633) : 1.57079633;
+}
+
 /// 95 % bounds of both axes, rad, and the largest inflation.
+/* The formula from top to bottom. NOLINTNEXTLINE(readability-function-size) */
 static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], double *largest)
 {
     const jcal_hinge_refine_t *const r = &self->refine;
     const double cost = (double)r->cost;
     const double noise = fmax(cost / (2.0 * (double)r->units), 0.01);
-    const double blocks = (double)r->information * (double)r->information / (double)r->information2;
+    const double counted = (double)r->information * (double)r->information / (double)r->information2;
+    const double blocks = fmin(counted, 2.0 * (double)r->blocks);
     double scatter[4][4];
     dunpack(r->scatter, 4, &scatter[0][0]);
     double met = 0.0;
@@ -145,17 +166,7 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
         }
     }
     for (int axis = 0; axis < 2; ++axis) {
-        /* Eigenvalues of the 2 x 2 block by trace and determinant. */
-        const double *const c = covariance[axis];
-        const double half_trace = 0.5 * (c[0] + c[2]);
-        const double root = sqrt(fmax((half_trace * half_trace) - ((c[0] * c[2]) - (c[1] * c[1])), 0.0));
-        const double bound = fmin(sqrt((3.84 * (half_trace + root)) + (2.15 * (half_trace - root))), 1.57079633);
-        /* The model is linear where a tilt changes the rate across the axis by less than a fifth. */
-        const double reach = 0.2 * sqrt((double)r->across / (double)r->along[axis]);
-        /* And only what has turned about its axis says anything: 0.03 rad^2/s in readings of 0.05 s. */
-        const double assumed = (double)self->cfg.gyr_noise_rad_s;
-        const bool turned = (double)r->along[axis] * assumed * assumed * 0.05 > 0.03;
-        out[axis] = turned ? fmin(bound * fmax(1.0, bound / reach), 1.57079633) : 1.57079633;
+        out[axis] = dbound(self, axis, blocks, covariance[axis]);
     }
 }
 

@@ -97,6 +97,7 @@ static inline double dweight(const dblock_t *block, int k)
 }
 
 /// Axis s tilted by x along u and v. The tangent directions are carried along.
+/* One comparison, step by step. NOLINTNEXTLINE(readability-function-size) */
 static inline void dtilted(const dblock_t *block, int s, const double *x, double j[3], double u[3], double v[3])
 {
     for (int i = 0; i < 3; ++i) {

@@ -177,8 +177,9 @@ static void an_axis_about_which_nothing_turned_has_no_bound(void)
         engine.refine.lever[axis] *= sqrtf(0.031f / (unit * along)); /* the mismatch's share stays */
         engine.refine.along[axis] = 0.031f / unit;
         TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine, &bounds));
-        TEST_ASSERT_FLOAT_WITHIN(1e-3f * whole.bound1_rad, whole.bound1_rad, bounds.bound1_rad);
-        TEST_ASSERT_FLOAT_WITHIN(1e-3f * whole.bound2_rad, whole.bound2_rad, bounds.bound2_rad);
+        /* Less along the axis is less planar, which narrows a bound by up to 1 + 10 / blocks / 100: 1 % with ten blocks. */
+        TEST_ASSERT_FLOAT_WITHIN(1e-2f * whole.bound1_rad, whole.bound1_rad, bounds.bound1_rad);
+        TEST_ASSERT_FLOAT_WITHIN(1e-2f * whole.bound2_rad, whole.bound2_rad, bounds.bound2_rad);
         engine.refine.lever[axis] *= sqrtf(0.029f / 0.031f);
         engine.refine.along[axis] = 0.029f / unit; /* limit: 0.03 rad^2/s */
         TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine, &bounds));

@@ -568,6 +568,7 @@ static void a_known_phase_is_changed_by_a_block_only_as_much_as_the_block_knows(
         feed(&motion, 100, 100 + BLOCK_SAMPLES);
         const double complex both = known[n] + (cabs(match) * conj(off));
         const double complex expected =
+            /* The analyser gives up on loops. NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) */
             dturn(-seen.theta[BLOCK_SAMPLES - 1]) * off * (match / cabs(match)) * (both / cabs(both));
         assert_near(creal(expected), engine.refine.phase.re, SUM_TOL);
         assert_near(cimag(expected), engine.refine.phase.im, SUM_TOL);
@@ -784,6 +785,7 @@ static void without_axis(int axis, double matrix[64], double gradient[8])
     deliminate(matrix, gradient, 8, (2 * axis) + 1);
 }
 
+/* One comparison, step by step. NOLINTNEXTLINE(readability-function-size) */
 static void a_jump_gives_up_what_the_sums_know_of_that_axis_and_keeps_the_other(void)
 {
     for (int axis = 0; axis < 2; ++axis) {
@@ -849,6 +851,7 @@ static void a_jump_gives_up_what_the_sums_know_of_that_axis_and_keeps_the_other(
     }
 }
 
+/* One comparison, step by step. NOLINTNEXTLINE(readability-function-size) */
 static void an_axis_far_from_where_its_sums_began_keeps_half_of_them(void)
 {
     const motion_t motion = motion_for(2, 0.02);

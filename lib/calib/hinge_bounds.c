@@ -32,6 +32,10 @@
 /// Share of the rate across the axis that a tilt within the bound may make up for; beyond it the phase of a block is not
 /// known well enough for a linear statement.
 #define LINEAR_SHARE 0.2f
+/// Blocks in which nearly planar motion has found its phase, and the power along the axis over that across it at which motion is
+/// half planar: with fewer, bounds are wider.
+#define PLANAR_BLOCKS 10.0f
+#define PLANAR_RATIO 100.0f
 
 /// Integral of the squared rate along an axis below which its segment has not turned, rad^2/s: a third of a second at 0.3 rad/s.
 #define TURNED_MIN 0.03f
@@ -115,8 +119,11 @@ static bool has_turned(const jcal_hinge_t *self, unsigned axis)
 /// The bound, made wider where a tilt by it changes the rate across the axis too much for linear sums.
 static float widen(const jcal_hinge_refine_t *refine, unsigned axis, float bound_rad)
 {
-    const float reach = LINEAR_SHARE * sqrtf(refine->across / jcal_max(refine->along[axis], 1e-20f));
-    return jcal_min(bound_rad * jcal_max(1.0f, bound_rad / jcal_max(reach, 1e-6f)), JCAL_BOUND_UNKNOWN_RAD);
+    const float along = jcal_max(refine->along[axis], 1e-20f);
+    const float reach = LINEAR_SHARE * sqrtf(refine->across / along);
+    const float planar = along / (along + (PLANAR_RATIO * refine->across));
+    const float few = 1.0f + (planar * PLANAR_BLOCKS / jcal_hinge_refine_blocks(refine));
+    return jcal_min(few * bound_rad * jcal_max(1.0f, bound_rad / jcal_max(reach, 1e-6f)), JCAL_BOUND_UNKNOWN_RAD);
 }
 
 /// How much more the score scatters than its matrix says: what blocks show and what residuals of this power let expect.
