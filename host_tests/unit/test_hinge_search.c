@@ -136,7 +136,7 @@ static double eigenvalue(jcal_vec3_t axis, int sensor)
 /* Cost of the specific forces, sample by sample, with the constant that minimises it. */
 static double direct_cost_acc(jcal_vec3_t j1, jcal_vec3_t j2, double sign_of_a2)
 {
-    dpoint_t p;
+    dpoint_t p = {0};
     dset(j1, p.j[0]);
     dset(jcal_vec3_scale(j2, (float)sign_of_a2), p.j[1]);
     const double bias = (double)engine.cfg.acc_bias_m_s2;
