@@ -53,10 +53,11 @@ static inline void djacobi(double a[4][4], double v[4][4])
     }
 }
 
-/// Scatter met over scatter expected, with 6 blocks of what the size of the residuals alone would make.
+/// Scatter met over scatter expected, with 6 blocks of what the size of the residuals lets expect.
 static inline double dblend(double met, double noise, double blocks)
 {
-    return (((met * blocks) + (noise * 6.0)) / (blocks + 6.0)) * (1.0 + (1.0 / blocks));
+    const double correlation = 0.5 + (3.0 / (1.0 + (20.0 / noise)));
+    return ((met * blocks) + (6.0 * correlation * noise)) / (blocks + 6.0);
 }
 
 static inline double dquadratic(double m[4][4], const double v[4])
@@ -89,17 +90,20 @@ static inline void dinformation(const jcal_hinge_refine_t *refine, double prior,
 }
 
 /// 95 % radius of one axis for its covariance, wider where the sums are hardly linear.
-static inline double dbound(const jcal_hinge_t *self, int axis, double blocks, const double c[3])
+static inline double dbound(const jcal_hinge_t *self, int axis, const double c[3])
 {
-    const double along = (double)self->refine.along[axis];
-    const double across = (double)self->refine.across;
+    const jcal_hinge_refine_t *const r = &self->refine;
+    const double along = (double)r->along[axis];
+    const double across = (double)r->across;
     /* Eigenvalues of the 2 x 2 block by trace and determinant. */
     const double half_trace = 0.5 * (c[0] + c[2]);
     const double root = sqrt(fmax((half_trace * half_trace) - ((c[0] * c[2]) - (c[1] * c[1])), 0.0));
     const double bound = fmin(sqrt((3.84 * (half_trace + root)) + (2.15 * (half_trace - root))), 1.57079633);
     /* The model is linear where a tilt changes the rate across the axis by less than a fifth. */
     const double reach = 0.2 * sqrt(across / along);
-    /* Nearly planar motion needs ten blocks. */
+    /* Nearly planar motion needs ten blocks that tell of this axis. */
+    const double blocks =
+        fmax((double)r->told[axis] * (double)r->told[axis] / fmax((double)r->told2[axis], 1e-20), 1.0);
     const double few = 1.0 + (10.0 / blocks / (1.0 + (100.0 * across / along)));
     /* And only what has turned about its axis says anything: 0.03 rad^2/s in readings of 0.05 s. */
     const double assumed = (double)self->cfg.gyr_noise_rad_s;
@@ -166,7 +170,7 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
         }
     }
     for (int axis = 0; axis < 2; ++axis) {
-        out[axis] = dbound(self, axis, blocks, covariance[axis]);
+        out[axis] = dbound(self, axis, covariance[axis]);
     }
 }
 

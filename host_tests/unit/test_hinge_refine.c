@@ -235,6 +235,13 @@ static void counts_of_a_block_are_what_they_say(void)
     assert_near(trace, got->information, SUM_TOL * trace);
     assert_near(trace * trace, got->information2, 2.0 * SUM_TOL * trace * trace);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.0f, jcal_hinge_refine_blocks(got));
+    for (unsigned s = 0; s < 2u; ++s) {
+        const size_t u = 2u * s;
+        const double told = (double)(got->matrix[jcal_sym_at(u, u)] + got->matrix[jcal_sym_at(u + 1u, u + 1u)]);
+        assert_near(told, got->told[s], SUM_TOL * told);
+        assert_near(told * told, got->told2[s], 2.0 * SUM_TOL * told * told);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.0f, jcal_hinge_refine_blocks_of(got, s));
+    }
     /* Cost of 2 units: in units of the noise of both directions. */
     assert_near((double)got->cost / 8.0, jcal_hinge_refine_noise(got), 1e-6 * (double)got->cost);
 }
@@ -638,10 +645,11 @@ static void fading_scales_every_sum_and_nothing_else(void)
     TEST_ASSERT_TRUE(before.block.time_s > 0.0f);
     jcal_hinge_refine_fade(&engine.refine, 0.25f);
     jcal_hinge_refine_t expected = before;
-    float *const single[] = {&expected.information, &expected.information2, &expected.cost,       &expected.units,
-                             &expected.joint,       &expected.across,       &expected.along[0],   &expected.along[1],
-                             &expected.lever[0],    &expected.lever[1],     &expected.blocks,     &expected.time_s,
-                             &expected.same,        &expected.other,        &expected.sign_time_s};
+    float *const single[] = {&expected.information, &expected.information2, &expected.cost,        &expected.units,
+                             &expected.joint,       &expected.across,       &expected.along[0],    &expected.along[1],
+                             &expected.lever[0],    &expected.lever[1],     &expected.blocks,      &expected.time_s,
+                             &expected.same,        &expected.other,        &expected.sign_time_s, &expected.told[0],
+                             &expected.told[1],     &expected.told2[0],     &expected.told2[1]};
     for (size_t k = 0; k < (sizeof single / sizeof single[0]); ++k) {
         TEST_ASSERT_TRUE(*single[k] > 0.0f);
         *single[k] *= 0.25f; /* exact */

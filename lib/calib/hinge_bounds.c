@@ -16,12 +16,13 @@
 /// Blocks below which nothing is said; and the weight in blocks of what is assumed of the scatter before they are many.
 #define BLOCKS_MIN 3.5f
 #define PRIOR_BLOCKS 6.0f
-/// Assumed scatter of a block's score over that of independent readings.
-#define PRIOR_CORRELATION 1.0f
+/// Assumed scatter of a block's score over that of independent readings: quiet sensors, and what is added where the residual is far
+/// above their noise. That is not noise but soft tissue or the like, which lasts longer than a block.
+#define PRIOR_QUIET 0.5f
+#define PRIOR_DISTURBED 3.0f
+#define DISTURBED_NOISE 20.0f
 /// Least scatter, in the same measure.
 #define SCATTER_MIN 0.25f
-/// Small-sample factor 1 + this / blocks.
-#define SMALL_SAMPLE 1.0f
 
 /// Information that noise in the regressors pretends, as a share of the cost: a quarter for white noise; with a margin.
 #define PRETENDED_SHARE 0.5f
@@ -122,15 +123,15 @@ static float widen(const jcal_hinge_refine_t *refine, unsigned axis, float bound
     const float along = jcal_max(refine->along[axis], 1e-20f);
     const float reach = LINEAR_SHARE * sqrtf(refine->across / along);
     const float planar = along / (along + (PLANAR_RATIO * refine->across));
-    const float few = 1.0f + (planar * PLANAR_BLOCKS / jcal_hinge_refine_blocks(refine));
+    const float few = 1.0f + (planar * PLANAR_BLOCKS / jcal_max(jcal_hinge_refine_blocks_of(refine, axis), 1.0f));
     return jcal_min(few * bound_rad * jcal_max(1.0f, bound_rad / jcal_max(reach, 1e-6f)), JCAL_BOUND_UNKNOWN_RAD);
 }
 
 /// How much more the score scatters than its matrix says: what blocks show and what residuals of this power let expect.
 static float inflate(float met, float noise, float blocks)
 {
-    const float mean = ((met * blocks) + (PRIOR_CORRELATION * noise * PRIOR_BLOCKS)) / (blocks + PRIOR_BLOCKS);
-    return mean * (1.0f + (SMALL_SAMPLE / blocks));
+    const float assumed = noise * (PRIOR_QUIET + (PRIOR_DISTURBED * noise / (noise + DISTURBED_NOISE)));
+    return ((met * blocks) + (assumed * PRIOR_BLOCKS)) / (blocks + PRIOR_BLOCKS);
 }
 
 /// The scatter beside the matrix, mean over the tilts.

@@ -36,6 +36,8 @@ void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share)
     for (unsigned axis = 0u; axis < 2u; ++axis) {
         self->along[axis] *= share;
         self->lever[axis] *= share;
+        self->told[axis] *= share;
+        self->told2[axis] *= share;
     }
     self->information *= share;
     self->information2 *= share;
@@ -75,6 +77,8 @@ void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, flo
     }
     self->along[axis] *= keep;
     self->lever[axis] *= keep;
+    self->told[axis] *= keep;
+    self->told2[axis] *= keep;
 }
 
 void jcal_hinge_refine_forget(jcal_hinge_refine_t *self, unsigned axis, float keep)

@@ -109,6 +109,11 @@ float jcal_hinge_refine_blocks(const jcal_hinge_refine_t *self)
     return jcal_min(counted, 2.0f * self->blocks);
 }
 
+float jcal_hinge_refine_blocks_of(const jcal_hinge_refine_t *self, unsigned axis)
+{
+    return (self->told[axis] * self->told[axis]) / jcal_max(self->told2[axis], 1e-20f);
+}
+
 float jcal_hinge_refine_noise(const jcal_hinge_refine_t *self)
 {
     return jcal_max(self->cost / jcal_max(2.0f * self->units, 1e-9f), NOISE_MIN);
@@ -271,17 +276,20 @@ static void add_block(jcal_hinge_refine_t *self, float reach)
     const jcal_hinge_block_t *const block = &self->block;
     const float *const of_phase = &block->matrix[JCAL_SYM_SIZE(PHASE)];
     float score[UNKNOWNS];
-    float trace = 0.0f;
+    float told[2] = {0.0f, 0.0f};
     for (unsigned i = 0u; i < UNKNOWNS; ++i) {
         const float share = of_phase[i] / reach;
         for (unsigned k = 0u; k <= i; ++k) {
             const float sum = block->matrix[jcal_sym_at(i, k)] - (share * of_phase[k]);
             self->matrix[jcal_sym_at(i, k)] += sum;
-            trace += ((i == k) && (i < TILTS)) ? sum : 0.0f;
+            if ((i == k) && (i < TILTS)) {
+                told[i / 2u] += sum;
+            }
         }
         score[i] = block->gradient[i] - (share * block->gradient[PHASE]);
         self->gradient[i] += score[i];
     }
+    const float trace = told[0] + told[1];
     float tilts[TILTS];
     for (unsigned i = 0u; i < TILTS; ++i) {
         score[i] += block->acc_score[i];
@@ -293,6 +301,10 @@ static void add_block(jcal_hinge_refine_t *self, float reach)
     }
     self->information += trace;
     self->information2 += trace * trace;
+    for (unsigned axis = 0u; axis < 2u; ++axis) {
+        self->told[axis] += told[axis];
+        self->told2[axis] += told[axis] * told[axis];
+    }
     self->blocks += 1.0f;
     self->units += block->units;
     self->joint += block->joint;

@@ -60,6 +60,9 @@ void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, flo
 /// Effective number of blocks, each counted by its information; at most twice those since an axis began anew.
 float jcal_hinge_refine_blocks(const jcal_hinge_refine_t *self);
 
+/// Effective number of blocks that tell of one axis (0, 1), each counted by what it tells of it.
+float jcal_hinge_refine_blocks_of(const jcal_hinge_refine_t *self, unsigned axis);
+
 /// Power of the residual, in units of the assumed noise power per direction.
 float jcal_hinge_refine_noise(const jcal_hinge_refine_t *self);
 
