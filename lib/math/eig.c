@@ -6,6 +6,9 @@
 #include <float.h>
 #include <math.h>
 
+/* An element whose square is this share of the product of its diagonal elements changes no float of either eigenvalue. */
+#define NEGLIGIBLE 1e-15f
+
 /* The matrix on its way to a diagonal one, and the rotations applied so far. */
 typedef struct {
     float a[JCAL_SYM_SIZE(JCAL_EIG_MAX)]; /* n x n, packed */
@@ -49,7 +52,8 @@ static void annihilate(jacobi_t *self, size_t p, size_t q)
     const float apq = self->a[jcal_sym_at(p, q)];
     const float app = self->a[jcal_sym_at(p, p)];
     const float aqq = self->a[jcal_sym_at(q, q)];
-    if (apq == 0.0f) {
+    if ((apq * apq) <= (NEGLIGIBLE * fabsf(app * aqq))) { /* also where everything is zero */
+        self->a[jcal_sym_at(p, q)] = 0.0f;
         return;
     }
     const rotation_t r = annihilating_rotation(app, aqq, apq);
