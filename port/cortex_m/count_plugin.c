@@ -63,7 +63,8 @@ static uint32_t function_number(const char *name)
 
 static kind_t mark_of(const char *name)
 {
-    static const char *const MARKS[] = {"replay_mark_push", "replay_mark_step", "replay_mark_update", "replay_mark_end"};
+    static const char *const MARKS[] = {"replay_mark_push", "replay_mark_step", "replay_mark_update",
+                                        "replay_mark_end"};
     for (int k = 0; name != NULL && k <= KIND_END; ++k) {
         if (strcmp(name, MARKS[k]) == 0) {
             return (kind_t)k;

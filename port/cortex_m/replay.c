@@ -136,12 +136,12 @@ static uint64_t hash_f32(uint64_t hash, float value)
 
 static uint64_t hash_result(uint64_t hash, const jcal_hinge_result_t *r)
 {
-    const uint32_t words[] = {(uint32_t)r->status,       (uint32_t)r->engine,         (uint32_t)r->weak,
-                              (uint32_t)r->hint,         (uint32_t)r->reason,         r->has_axes ? 1u : 0u,
-                              r->paper_accepted ? 1u : 0u, r->samples,                r->rejected};
-    const float floats[] = {r->axis1.x,        r->axis1.y,         r->axis1.z,         r->axis2.x,
-                            r->axis2.y,        r->axis2.z,         r->uncertainty1_rad, r->uncertainty2_rad,
-                            r->sign_margin,    r->progress_axis1,  r->progress_axis2,  r->progress_sign};
+    const uint32_t words[] = {(uint32_t)r->status,         (uint32_t)r->engine, (uint32_t)r->weak,
+                              (uint32_t)r->hint,           (uint32_t)r->reason, r->has_axes ? 1u : 0u,
+                              r->paper_accepted ? 1u : 0u, r->samples,          r->rejected};
+    const float floats[] = {r->axis1.x,     r->axis1.y,        r->axis1.z,          r->axis2.x,
+                            r->axis2.y,     r->axis2.z,        r->uncertainty1_rad, r->uncertainty2_rad,
+                            r->sign_margin, r->progress_axis1, r->progress_axis2,   r->progress_sign};
     for (size_t k = 0; k < sizeof(words) / sizeof(words[0]); ++k) {
         hash = hash_u64(hash, words[k], 4);
     }
@@ -176,8 +176,7 @@ int main(void)
         }
     }
     (void)fclose(file);
-    printf("samples %lu hash %08lx%08lx state %lu stack %lu\n", (unsigned long)samples,
-           (unsigned long)(hash >> 32), (unsigned long)(hash & 0xFFFFFFFFu), (unsigned long)sizeof(engine),
-           (unsigned long)stack);
+    printf("samples %lu hash %08lx%08lx state %lu stack %lu\n", (unsigned long)samples, (unsigned long)(hash >> 32),
+           (unsigned long)(hash & 0xFFFFFFFFu), (unsigned long)sizeof(engine), (unsigned long)stack);
     return (samples > 0) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

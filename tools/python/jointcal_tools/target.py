@@ -6,6 +6,7 @@ import os
 import re
 import struct
 import subprocess
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -38,11 +39,12 @@ def samples_file(recording: Path) -> Path:
     """The recording's samples as jcal_pair_t, in a folder of its own as samples.bin."""
     folder = WORK / "samples" / recording.stem
     folder.mkdir(parents=True, exist_ok=True)
-    with open(recording, newline="", encoding="utf-8") as lines, open(folder / "samples.bin", "wb") as binary:
+    part = folder / f"samples.{os.getpid()}"  # renamed when complete: another run may be reading
+    with open(recording, newline="", encoding="utf-8") as lines, open(part, "wb") as binary:
         for row in csv.DictReader(line for line in lines if not line.startswith("#")):
             values = [float(row[column]) if row[column] else float("nan") for column in COLUMNS]
             binary.write(struct.pack("<Q12f", round(float(row["t_s"]) * 1e6), *values))
-    return folder / "samples.bin"
+    return part.replace(folder / "samples.bin")
 
 
 def recordings(names: list[str]) -> list[Path]:
@@ -50,7 +52,7 @@ def recordings(names: list[str]) -> list[Path]:
     data = Path(os.environ.get("JOINTCAL_DATA", ROOT / "data"))
     found = [data / f"{name}.csv" for name in names if (data / f"{name}.csv").exists()]
     if not found:
-        print(f"No recordings in {data} (JOINTCAL_DATA): the bundled demo recording stands in for them.")
+        print(f"No recordings in {data} (JOINTCAL_DATA): the bundled demo recording stands in for them.", file=sys.stderr)
     return found or [ROOT / "tools/demo/hinge_demo.csv"]
 
 
