@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT
 # Every public header compiles alone, twice in a row, as C99 and as C++11.
 include(CheckLanguage)
-check_language(CXX)
+# A target's C++ needs a standard library of its own; the headers are the same ones.
+if(NOT CMAKE_CROSSCOMPILING)
+    check_language(CXX)
+endif()
 if(CMAKE_CXX_COMPILER)
     enable_language(CXX)
 endif()

@@ -53,4 +53,6 @@ for script in tools/make_golden.py tools/make_demo.py; do
 done
 step "Measurements, a short run"
 "$python" tools/measure.py all --quick --no-qmt
+step "Targets"
+tools/test_target.sh
 step "All steps passed"

@@ -2,7 +2,7 @@
 # Targets format_check, tidy and cppcheck. They exist where their tool does; tools/test.sh installs and builds them all.
 set(analysis_folders include lib tools/cli tools/example host_tests/unit host_tests/program host_tests/consumer host_tests/fuzz tools/native
     host_tests/bench)
-set(format_patterns ${analysis_folders})
+set(format_patterns ${analysis_folders} port/cortex_m)
 set(source_patterns ${analysis_folders})
 list(TRANSFORM format_patterns APPEND "/*.[ch]")
 list(TRANSFORM source_patterns APPEND "/*.c")

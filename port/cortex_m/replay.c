@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: MIT */
+/* Replays samples through a hinge engine and prints a hash of every result, on the host and on a target.
+ *
+ * Reads `samples.bin` (records laid out like jcal_pair_t, little endian) from the working directory; on a target that is
+ * a file of the host, by semihosting. Equal hashes mean equal bits of every field of every result. The functions
+ * replay_mark_* tell tools/budget.py's instruction counter where a call begins and ends.
+ *
+ * Compile definitions: REPLAY_WINDOW (window engine, N_max 125), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
+ * the stack before every call and print how deep the deepest one went). */
+#include "jointcal/hinge.h"
+#include "jointcal/hinge_window.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { CHUNK = 64, N_MAX = 125, PAINT_WORDS = 1024 };
+#define PAINT 0xC5A3C5A3u
+
+typedef char pair_has_no_padding[(sizeof(jcal_pair_t) == 56) ? 1 : -1];
+
+static jcal_pair_t chunk[CHUNK];
+
+#ifdef REPLAY_WINDOW
+static jcal_hinge_window_t engine;
+static float storage[JCAL_HINGE_WINDOW_STORAGE_BYTES(N_MAX, 21) / sizeof(float) + 1u];
+#define engine_push jcal_hinge_window_push
+#define engine_step jcal_hinge_window_step
+#define engine_update jcal_hinge_window_update
+#define engine_get jcal_hinge_window_get
+
+static jcal_status_t engine_init(void)
+{
+    jcal_hinge_window_config_t config = jcal_hinge_window_config_default();
+    config.n_max = N_MAX;
+    return jcal_hinge_window_init(&engine, &config, storage, sizeof(storage));
+}
+#else
+static jcal_hinge_t engine;
+#define engine_push jcal_hinge_push
+#define engine_step jcal_hinge_step
+#define engine_update jcal_hinge_update
+#define engine_get jcal_hinge_get
+
+static jcal_status_t engine_init(void)
+{
+    const jcal_hinge_config_t config = jcal_hinge_config_default();
+    return jcal_hinge_init(&engine, &config);
+}
+#endif
+
+/* Places that the instruction counter knows by name; the volatile keeps them apart and alive. */
+extern volatile int replay_place;
+volatile int replay_place;
+void replay_mark_push(void);
+void replay_mark_step(void);
+void replay_mark_update(void);
+void replay_mark_end(void);
+__attribute__((noinline)) void replay_mark_push(void)
+{
+    replay_place = 1;
+}
+__attribute__((noinline)) void replay_mark_step(void)
+{
+    replay_place = 2;
+}
+__attribute__((noinline)) void replay_mark_update(void)
+{
+    replay_place = 3;
+}
+__attribute__((noinline)) void replay_mark_end(void)
+{
+    replay_place = 0;
+}
+
+static __attribute__((noinline)) void call_engine(const jcal_pair_t *pair)
+{
+#ifdef REPLAY_SPLIT
+    replay_mark_push();
+    (void)engine_push(&engine, pair);
+    replay_mark_end();
+    replay_mark_step();
+    (void)engine_step(&engine);
+    replay_mark_end();
+#else
+    replay_mark_update();
+    (void)engine_update(&engine, pair);
+    replay_mark_end();
+#endif
+}
+
+#ifdef REPLAY_STACK
+/* The words below this function's frame; nothing else uses them between the two calls, and no interrupt is on. */
+static __attribute__((noinline)) uint32_t call_and_measure(const jcal_pair_t *pair)
+{
+    volatile uint32_t *const top = (volatile uint32_t *)__builtin_frame_address(0) - 16;
+    for (int k = 0; k < PAINT_WORDS; ++k) {
+        top[-k] = PAINT;
+    }
+    call_engine(pair);
+    uint32_t deepest = 0;
+    for (uint32_t k = 0; k < PAINT_WORDS; ++k) {
+        if (*(top - k) != PAINT) {
+            deepest = k;
+        }
+    }
+    return 4u * (deepest + 16u);
+}
+#else
+static uint32_t call_and_measure(const jcal_pair_t *pair)
+{
+    call_engine(pair);
+    return 0;
+}
+#endif
+
+/* FNV-1a, 64 bit, least significant byte first. */
+static uint64_t hash_u64(uint64_t hash, uint64_t value, int bytes)
+{
+    for (int k = 0; k < bytes; ++k) {
+        hash = (hash ^ (value & 0xFFu)) * UINT64_C(0x100000001B3);
+        value >>= 8;
+    }
+    return hash;
+}
+
+static uint64_t hash_f32(uint64_t hash, float value)
+{
+    uint32_t bits = 0x7FC00000u; /* NaNs differ between targets in bits that mean nothing */
+    if (!isnan(value)) {
+        memcpy(&bits, &value, sizeof(bits));
+    }
+    return hash_u64(hash, bits, 4);
+}
+
+static uint64_t hash_result(uint64_t hash, const jcal_hinge_result_t *r)
+{
+    const uint32_t words[] = {(uint32_t)r->status,         (uint32_t)r->engine, (uint32_t)r->weak,
+                              (uint32_t)r->hint,           (uint32_t)r->reason, r->has_axes ? 1u : 0u,
+                              r->paper_accepted ? 1u : 0u, r->samples,          r->rejected};
+    const float floats[] = {r->axis1.x,     r->axis1.y,        r->axis1.z,          r->axis2.x,
+                            r->axis2.y,     r->axis2.z,        r->uncertainty1_rad, r->uncertainty2_rad,
+                            r->sign_margin, r->progress_axis1, r->progress_axis2,   r->progress_sign};
+    for (size_t k = 0; k < sizeof(words) / sizeof(words[0]); ++k) {
+        hash = hash_u64(hash, words[k], 4);
+    }
+    for (size_t k = 0; k < sizeof(floats) / sizeof(floats[0]); ++k) {
+        hash = hash_f32(hash, floats[k]);
+    }
+    for (int k = 0; k < JCAL_REJECT_COUNT; ++k) {
+        hash = hash_u64(hash, r->rejected_by[k], 4);
+    }
+    return hash_u64(hash, r->t_us, 8);
+}
+
+int main(void)
+{
+    FILE *const file = fopen("samples.bin", "rb");
+    if (file == NULL || engine_init() != JCAL_OK) {
+        puts("no samples.bin, or no engine");
+        return EXIT_FAILURE;
+    }
+    uint64_t hash = UINT64_C(0xCBF29CE484222325);
+    uint32_t samples = 0;
+    uint32_t stack = 0;
+    jcal_hinge_result_t result;
+    for (size_t count = fread(chunk, sizeof(chunk[0]), CHUNK, file); count > 0;
+         count = fread(chunk, sizeof(chunk[0]), CHUNK, file)) {
+        for (size_t k = 0; k < count; ++k) {
+            const uint32_t deep = call_and_measure(&chunk[k]);
+            stack = (deep > stack) ? deep : stack;
+            (void)engine_get(&engine, &result);
+            hash = hash_result(hash, &result);
+            ++samples;
+        }
+    }
+    (void)fclose(file);
+    printf("samples %lu hash %08lx%08lx state %lu stack %lu\n", (unsigned long)samples, (unsigned long)(hash >> 32),
+           (unsigned long)(hash & 0xFFFFFFFFu), (unsigned long)sizeof(engine), (unsigned long)stack);
+    return (samples > 0) ? EXIT_SUCCESS : EXIT_FAILURE;
+}

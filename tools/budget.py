@@ -1,0 +1,167 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""What the library costs on a Cortex-M4F: code, state, stack, instructions. Writes docs/measurements/budget.md.
+
+usage: tools/budget.py [--json] [--check] [--profile] [--recording FILE.csv] [--no-write]
+
+--check fails if a limit of port/cortex_m/budgets.json is exceeded; --profile prints only the instructions and which
+functions the worst calls spend them in. Instructions are counted exactly by a QEMU plugin; they are not cycles.
+"""
+import argparse
+import json
+import re
+import statistics
+import subprocess
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent / "python"))
+from jointcal_tools import target  # noqa: E402
+
+BUDGETS = target.PORT / "budgets.json"
+PAGE = target.ROOT / "docs/measurements/budget.md"
+M4F = target.PLATFORMS["m4f"]
+ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
+CPU_HZ, INSTANCES, RATE_HZ = 64_000_000, 16, 100
+
+
+def counts_of(plugin: Path, engine: str, samples: Path, definitions: tuple[str, ...]) -> tuple[dict, dict, dict]:
+    """Counts of every call by kind, the worst call's counts by function, and what the program printed."""
+    image = target.build(M4F, f"replay_{engine}_{'_'.join(definitions).lower()}", ENGINES[engine] + definitions)
+    out = target.WORK / "counts.txt"
+    printed = target.run(M4F, image, samples, plugin, out)
+    counts: dict[str, list[int]] = {}
+    worst: dict[str, dict[str, int]] = {}
+    for line in out.read_text().splitlines():
+        cells = line.split()
+        if cells[0] == "worst":
+            worst.setdefault(cells[1], {})[cells[3]] = int(cells[2])
+        else:
+            counts.setdefault(cells[0], []).append(int(cells[1]))
+    return counts, worst, printed
+
+
+def instructions(samples: Path) -> dict:
+    """Per engine: counts of push, step and update, worst update by function, state bytes, painted stack."""
+    plugin = target.build_plugin()
+    found = {}
+    for engine in ENGINES:
+        counts, worst, printed = counts_of(plugin, engine, samples, ("REPLAY_STACK",))
+        split, _, _ = counts_of(plugin, engine, samples, ("REPLAY_SPLIT",))
+        found[engine] = {"counts": counts | split, "worst": worst["update"], **printed}
+    return found
+
+
+def print_profile(found: dict) -> None:
+    for engine, of in found.items():
+        for kind, counts in of["counts"].items():
+            print(f"{engine} {kind}: max {max(counts)}, mean {statistics.mean(counts):.0f}, "
+                  f"median {statistics.median(counts):.0f}, sample of the max {counts.index(max(counts))}")
+        for name, count in sorted(of["worst"].items(), key=lambda item: -item[1]):
+            print(f"    {count:8d}  {name}")
+
+
+def code_of(level: str) -> dict[str, int]:
+    """Bytes of code and constants per module of lib/."""
+    objects = target.compile_objects(M4F, level)
+    text = subprocess.run(["arm-none-eabi-size", *objects], check=True, capture_output=True, text=True).stdout
+    return {Path(cells[5]).stem: int(cells[0]) for cells in (line.split() for line in text.splitlines()[1:])}
+
+
+def stack_by_call_graph() -> tuple[dict[str, int], list[str]]:
+    """Worst-case stack of each function from GCC's call graphs, and what they could not tell."""
+    objects = target.compile_objects(M4F, "-O2", ("-fcallgraph-info=su",))
+    frames: dict[str, int] = {}
+    calls: dict[str, set[str]] = {}
+    for graph in (Path(o).with_suffix(".ci") for o in objects):
+        text = graph.read_text()
+        for title, label in re.findall(r'node: { title: "([^"]+)" label: "([^"]+)"', text):
+            size = re.search(r"(\d+) bytes \((\w+)", label)
+            if size:
+                frames[title] = int(size[1])
+        for source, callee in re.findall(r'edge: { sourcename: "([^"]+)" targetname: "([^"]+)"', text):
+            calls.setdefault(source, set()).add(callee)
+    depth: dict[str, int] = {}
+
+    def deepest(name: str) -> int:
+        if name not in depth:
+            depth[name] = frames.get(name, 0) + max((deepest(callee) for callee in calls.get(name, ())), default=0)
+        return depth[name]
+
+    unknown = sorted({c for of in calls.values() for c in of if c not in frames})
+    return {name: deepest(name) for name in frames}, unknown
+
+
+def measure(samples: Path, recording: str) -> tuple[dict, dict]:
+    found = instructions(samples)
+    stack, unknown = stack_by_call_graph()
+    code = {level: code_of(level) for level in ("-O2", "-Os")}
+    numbers: dict = {"recording": recording, "code_bytes": sum(code["-O2"].values()),
+                     "code_bytes_os": sum(code["-Os"].values())}
+    for engine, prefix in (("stream", "hinge"), ("window", "hinge_window")):
+        of = found[engine]
+        for kind in ("update", "push", "step"):
+            counts = of["counts"][kind]
+            key = f"hinge_{engine}_{'push' if kind == 'update' else kind + '_alone'}_instructions"
+            numbers |= {f"{key}_max": max(counts), f"{key}_mean": round(statistics.mean(counts)),
+                        f"{key}_median": round(statistics.median(counts))}
+        numbers[f"hinge_{engine}_state_bytes"] = of["state"]
+        numbers[f"hinge_{engine}_stack_painted_bytes"] = of["stack"]
+        numbers[f"hinge_{engine}_stack_call_graph_bytes"] = stack.get(f"jcal_{prefix}_update", 0)
+    numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
+    numbers["sixteen_hinges_instructions_per_s"] = (INSTANCES * RATE_HZ * numbers["hinge_stream_push_instructions_mean"])
+    numbers["sixteen_hinges_state_bytes"] = INSTANCES * numbers["hinge_stream_state_bytes"]
+    numbers["not_in_call_graph"] = unknown
+    return numbers, code
+
+
+def exceeded(numbers: dict) -> list[str]:
+    """A sentence for each limit that is exceeded; those within a stated allowance begin with `known`."""
+    found = []
+    for key, of in json.loads(BUDGETS.read_text()).items():
+        if numbers[key] > of["limit"]:
+            word = "known" if numbers[key] <= of.get("allowed", of["limit"]) else "EXCEEDED"
+            found.append(f"{word}: {key} {numbers[key]} > {of['limit']}. {of.get('why', '')}".strip())
+    return found
+
+
+def page_of(numbers: dict, code: dict) -> str:
+    lines = ["# Cost on a Cortex-M4F", "",
+             f"Written by `tools/budget.py`, recording {numbers['recording']}, arm-none-eabi-gcc, contraction off. `push` is",
+             "push and step together, as in jcal_hinge_update. The window engine has N_max 125. Instructions, not cycles:",
+             "GCC's model of the Cortex-M4 FPU (gcc/config/arm/cortex-m4-fpu.md) gives a division or square root about 15",
+             "cycles, and flash wait states come on top. No board was measured. Sixteen hinges: the mean of this recording",
+             "at its own rate, times 1600 updates a second; an estimate, not a run of sixteen.", "",
+             "| quantity | value |", "|---|---|"]
+    lines += [f"| {key} | {value} |" for key, value in numbers.items() if isinstance(value, int)]
+    lines += ["", "Not in the call graphs, counted as 0 bytes of stack: " + ", ".join(numbers["not_in_call_graph"]) + ".", "",
+              "| module | -O2 | -Os |", "|---|---|---|"]
+    lines += [f"| {name} | {size} | {code['-Os'][name]} |" for name, size in code["-O2"].items()]
+    lines += ["", "Limits exceeded:", ""] + ([f"- {line}" for line in exceeded(numbers)] or ["- none"])
+    return "\n".join(lines) + "\n"
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    for flag in ("--json", "--check", "--profile", "--no-write"):
+        parser.add_argument(flag, action="store_true")
+    parser.add_argument("--recording", type=Path)
+    arguments = parser.parse_args()
+    recording = arguments.recording or target.recordings(["rig_1D_04"])[0]
+    samples = target.samples_file(recording)
+    if arguments.profile:
+        print_profile(instructions(samples))
+        return 0
+    numbers, code = measure(samples, recording.stem)
+    page = page_of(numbers, code)
+    if not arguments.no_write:
+        PAGE.write_text(page, encoding="utf-8")
+    print(json.dumps(numbers, indent=4) if arguments.json else page)
+    broken = [line for line in exceeded(numbers) if line.startswith("EXCEEDED")]
+    for line in broken:
+        print(line, file=sys.stderr)
+    return 1 if arguments.check and broken else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
