@@ -50,8 +50,10 @@
 #define MOTION_MAX 3600.0f
 #define ACC_WEIGHT_MAX 2e4f
 
-/// One slice of work is paid for by this much time, so that the work per second does not depend on the rate.
+/// One slice of work is paid for by this much time, so that the work per second does not depend on the rate: four times as much once
+/// the calibration is ready and changes slowly.
 #define SLICE_S 0.005f
+#define SLICE_READY_S 0.02f
 #define SLICES_MAX 10u
 #define SLICES_PER_CYCLE 8u
 #define SETTLED_ROUNDS 4u
@@ -270,8 +272,12 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
     const jcal_hinge_sample_t sample = weigh(self, pair, dt_s);
     sum_up(self, &sample);
     self->credit_s = jcal_min(self->credit_s + dt_s, (float)SLICES_MAX * SLICE_S);
-    for (unsigned i = 0u; (i < SLICES_MAX) && (self->credit_s >= SLICE_S); ++i) {
-        self->credit_s -= SLICE_S;
+    for (unsigned i = 0u; i < SLICES_MAX; ++i) {
+        const float price_s = (self->verdict.status == (uint8_t)JCAL_READY) ? SLICE_READY_S : SLICE_S;
+        if (self->credit_s < price_s) {
+            break;
+        }
+        self->credit_s -= price_s;
         work(self);
     }
 }
