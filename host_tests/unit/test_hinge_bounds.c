@@ -58,7 +58,7 @@ static void add_motion(const motion_t *motion, uint32_t begin, uint32_t end, flo
         dset(s.a2, d.a[1]);
         d.acc_weight = (double)acc_weight;
         add_to_moments(&d, &engine.moments);
-        jcal_hinge_refine_add(&engine, &s);
+        (void)jcal_hinge_refine_add(&engine, &s);
     }
 }
 

@@ -79,7 +79,7 @@ static void feed(const motion_t *motion, uint32_t begin, uint32_t end)
 {
     for (uint32_t k = begin; k < end; ++k) {
         const jcal_hinge_sample_t s = sample_of(motion, k);
-        jcal_hinge_refine_add(&engine, &s);
+        (void)jcal_hinge_refine_add(&engine, &s);
     }
 }
 
@@ -404,7 +404,7 @@ static void feed_with_ledger(const motion_t *motion, uint32_t begin, uint32_t en
             const double turn = before.has_last ? (0.5 * block.dt_s[0] * (along + last)) : 0.0;
             phase = ((double)before.phase.re + dimaginary((double)before.phase.im)) * dturn(turn);
         }
-        jcal_hinge_refine_add(&engine, &s);
+        (void)jcal_hinge_refine_add(&engine, &s);
         if (engine.refine.block.time_s == 0.0f) {
             enter_block(phase, &before);
         }
@@ -537,7 +537,7 @@ static void the_phase_is_found_once_and_then_carried_from_block_to_block(void)
     int compared = 0;
     for (uint32_t k = 0; k < 1500; ++k) {
         s = sample_of(&motion, k);
-        jcal_hinge_refine_add(&engine, &s);
+        (void)jcal_hinge_refine_add(&engine, &s);
         if (k == 9) { /* 0.1 s: its sums are of no use, its phase is */
             TEST_ASSERT_EQUAL_FLOAT(0.0f, engine.refine.blocks);
             TEST_ASSERT_EQUAL_FLOAT(0.0f, engine.refine.matrix[0]);
@@ -593,7 +593,7 @@ static void blocks_last_a_tenth_of_the_time_covered_within_limits(void)
         const float before_s = engine.refine.block.time_s;
         known = (before_s > 0.0f) ? known : (engine.refine.phase_weight > 0.0f);
         const jcal_hinge_sample_t s = sample_of(&motion, k);
-        jcal_hinge_refine_add(&engine, &s);
+        (void)jcal_hinge_refine_add(&engine, &s);
         if (engine.refine.block.time_s > 0.0f) {
             continue;
         }
@@ -696,7 +696,7 @@ static void a_bias_of_the_gyroscopes_is_found(void)
             jcal_hinge_sample_t s = sample_of(&motion, k);
             s.w1 = jcal_vec3_add(s.w1, b1);
             s.w2 = jcal_vec3_add(s.w2, b2);
-            jcal_hinge_refine_add(&engine, &s);
+            (void)jcal_hinge_refine_add(&engine, &s);
         }
         const float unit = engine.cfg.gyr_bias_rad_s;
         const jcal_hinge_point_t *const p = &engine.refine.point;
@@ -730,7 +730,7 @@ static void planar_motion_shows_the_axes_to_first_order(void)
         start_beside(&motion, 3.0f, 3.0f);
         for (uint32_t k = 0; k < 2000; ++k) {
             const jcal_hinge_sample_t s = planar_sample(&motion, k);
-            jcal_hinge_refine_add(&engine, &s);
+            (void)jcal_hinge_refine_add(&engine, &s);
         }
         TEST_ASSERT_TRUE(error_of(&motion, 0) < 0.5f * JCAL_RAD_PER_DEG);
         TEST_ASSERT_TRUE(error_of(&motion, 1) < 0.5f * JCAL_RAD_PER_DEG);
@@ -748,7 +748,7 @@ static void noisy_planar_motion_shows_the_axes_too(void)
             jcal_hinge_sample_t s = planar_sample(&motion, k);
             s.w1 = jcal_vec3_add(s.w1, jcal_vec3_scale(jcal_rng_unit(&rng), 0.01f));
             s.w2 = jcal_vec3_add(s.w2, jcal_vec3_scale(jcal_rng_unit(&rng), 0.01f));
-            jcal_hinge_refine_add(&engine, &s);
+            (void)jcal_hinge_refine_add(&engine, &s);
         }
         /* 0.01 / sqrt(3) rad/s beside 1 rad/s and more along, 3000 samples: some hundredths of a degree. */
         TEST_ASSERT_TRUE(error_of(&motion, 0) < 0.1f * JCAL_RAD_PER_DEG);

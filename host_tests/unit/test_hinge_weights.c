@@ -176,23 +176,26 @@ static void a_sample_stands_for_the_time_since_the_last_one_up_to_50_ms(void)
 
 static void the_work_per_second_does_not_depend_on_the_rate(void)
 {
-    /* One slice each 5 ms, at most 10 per sample: 8 slices are one cycle with one judgement, and every other cycle may
-       leave the global check out, so that the count repeats after 16. */
+    /* 5 ms of credit pay a slice, 20 ms once it is ready; a judgement, the last of 8 slices, costs 2, and a block that closes 3.
+       At most 10 slices per sample. Every other cycle may leave the global check out, so that the count repeats after 16. */
     const double rates_hz[4] = {20.0, 25.0, 50.0, 200.0};
     for (int i = 0; i < 4; ++i) {
         motion_t motion = motion_lively(7);
         motion.rate_hz = rates_hz[i];
         setUp();
-        uint32_t slices = 0;
+        uint32_t paid = 0;
         for (uint32_t k = 0; k <= (uint32_t)(4.0 * rates_hz[i]); ++k) {
             const uint8_t before = engine.slice;
+            const uint32_t price = (engine.verdict.status == (uint8_t)JCAL_READY) ? 4u : 1u;
             const jcal_pair_t p = motion_sample(&motion, k);
             jcal_hinge_consume(&engine, &p);
             const uint32_t done = (engine.slice + 16u - before) % 16u;
             TEST_ASSERT_TRUE(done <= 10u);
-            slices += done;
+            paid += (done * price) + (((before % 8u) + done) / 8u);
+            paid += (engine.has_point && !(engine.refine.block.time_s > 0.0f)) ? 3u : 0u;
         }
-        TEST_ASSERT_UINT32_WITHIN(2, 800, slices);
+        /* What is left unpaid, and a slice paid at the old price where the calibration became ready. */
+        TEST_ASSERT_UINT32_WITHIN(12, 800, paid);
     }
 }
 

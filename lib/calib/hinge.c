@@ -55,6 +55,9 @@
 #define SLICE_S 0.005f
 #define SLICE_READY_S 0.02f
 #define SLICES_MAX 10u
+/// A judgement, and a block of the refined axes that closes, cost more than other slices.
+#define JUDGE_SLICES 2.0f
+#define CLOSE_SLICES 3.0f
 #define SLICES_PER_CYCLE 8u
 #define SETTLED_ROUNDS 4u
 
@@ -224,7 +227,7 @@ static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     if (self->rest_s >= REST_MAX_S) {
         jcal_hinge_refine_interrupt(&self->refine);
     } else if (self->has_point) {
-        jcal_hinge_refine_add(self, sample);
+        self->credit_s -= jcal_hinge_refine_add(self, sample) ? (CLOSE_SLICES * SLICE_S) : 0.0f;
     } else {
         /* nothing to refine yet */
     }
@@ -246,6 +249,7 @@ static void work(jcal_hinge_t *self)
         break;
     case SLICES_PER_CYCLE - 1u:
         jcal_hinge_judge(self);
+        self->credit_s -= (JUDGE_SLICES - 1.0f) * SLICE_S;
         break;
     default:
         if (!rests) {

@@ -76,21 +76,20 @@ static bool inform(const jcal_hinge_t *self, float prior, information_t *out)
         biases[jcal_sym_at(i, i)] += prior;
     }
     float scale[TILTS];
-    jcal_chol_scale(biases, TILTS, scale);
-    if (jcal_chol_factor_in_place(biases, TILTS, NULL) != JCAL_OK) {
+    if (jcal_chol_factor_damped(biases, TILTS, 0.0f, scale) != JCAL_OK) {
         return false;
     }
     for (unsigned i = 0u; i < TILTS; ++i) {
         float column[TILTS];
         for (unsigned k = 0u; k < TILTS; ++k) {
-            column[k] = scale[k] * refine->matrix[jcal_sym_at(TILTS + k, i)];
+            column[k] = refine->matrix[jcal_sym_at(TILTS + k, i)];
         }
-        jcal_chol_solve(biases, TILTS, column, column);
+        jcal_chol_solve_scaled(biases, TILTS, scale, column);
         for (unsigned k = 0u; k <= i; ++k) {
             const size_t at = jcal_sym_at(i, k);
             float sum = refine->matrix[at];
             for (unsigned m = 0u; m < TILTS; ++m) {
-                sum -= scale[m] * column[m] * refine->matrix[jcal_sym_at(TILTS + m, k)];
+                sum -= column[m] * refine->matrix[jcal_sym_at(TILTS + m, k)];
             }
             out->all[at] = sum + acc.matrix[at];
             out->sure[at] = sum + (trust * acc.matrix[at]);

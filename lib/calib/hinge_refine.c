@@ -194,17 +194,15 @@ static bool find_gain(jcal_hinge_refine_t *self, const float matrix[36])
             biases[jcal_sym_at(i, k)] = matrix[jcal_sym_at(TILTS + i, TILTS + k)];
         }
     }
+    float scale[TILTS];
+    if (jcal_chol_factor_damped(biases, TILTS, DAMPING, scale) != JCAL_OK) {
+        return false;
+    }
     for (unsigned i = 0u; i < TILTS; ++i) {
-        float factor[10];
-        for (unsigned k = 0u; k < JCAL_SYM_SIZE(TILTS); ++k) {
-            factor[k] = biases[k];
-        }
         for (unsigned k = 0u; k < TILTS; ++k) {
             self->gain[i][k] = matrix[jcal_sym_at(TILTS + k, i)];
         }
-        if (jcal_chol_solve_damped(factor, TILTS, DAMPING, self->gain[i]) != JCAL_OK) {
-            return false;
-        }
+        jcal_chol_solve_scaled(biases, TILTS, scale, self->gain[i]);
     }
     return true;
 }
@@ -230,7 +228,12 @@ static bool find_step(jcal_hinge_t *engine, float d[UNKNOWNS])
         d[i] = (pull * away[i]) - (self->gradient[i] + acc.gradient[i]);
         d[TILTS + i] = -(self->gradient[TILTS + i] + (prior * self->bias[i]));
     }
-    return find_gain(self, matrix) && (jcal_chol_solve_damped(matrix, UNKNOWNS, DAMPING, d) == JCAL_OK);
+    float scale[UNKNOWNS];
+    if (!find_gain(self, matrix) || (jcal_chol_factor_damped(matrix, UNKNOWNS, DAMPING, scale) != JCAL_OK)) {
+        return false;
+    }
+    jcal_chol_solve_scaled(matrix, UNKNOWNS, scale, d);
+    return true;
 }
 
 /// Goes to where the sums have their minimum; an axis that is far from it begins anew on the way there.
@@ -345,13 +348,15 @@ static void close_block(jcal_hinge_t *engine)
     }
 }
 
-void jcal_hinge_refine_add(jcal_hinge_t *engine, const jcal_hinge_sample_t *sample)
+bool jcal_hinge_refine_add(jcal_hinge_t *engine, const jcal_hinge_sample_t *sample)
 {
     jcal_hinge_refine_t *const self = &engine->refine;
     jcal_hinge_block_add(self, &engine->cfg, engine->acc_constant_m_s2, sample);
     const float share_s = jcal_min(BLOCK_MAX_S, jcal_max(BLOCK_MIN_S, BLOCK_SHARE * self->time_s));
     const float length_s = (self->phase_weight > 0.0f) ? share_s : BLOCK_FIRST_S;
-    if (self->block.time_s >= (length_s - (0.5f * sample->dt_s))) {
+    const bool full = self->block.time_s >= (length_s - (0.5f * sample->dt_s));
+    if (full) {
         close_block(engine);
     }
+    return full;
 }

@@ -43,10 +43,10 @@ void jcal_hinge_refine_go(jcal_hinge_refine_t *self, const jcal_hinge_point_t *p
 void jcal_hinge_refine_interrupt(jcal_hinge_refine_t *self);
 
 /// Adds one sample to the refined axes of an engine that has an estimate; closes the block that it fills, and moves the axes
-/// with it.
+/// with it: then it returns true.
 ///
 /// Cost:     about 250 multiply-adds; where a block ends, 1000 more.
-void jcal_hinge_refine_add(jcal_hinge_t *engine, const jcal_hinge_sample_t *sample);
+bool jcal_hinge_refine_add(jcal_hinge_t *engine, const jcal_hinge_sample_t *sample);
 
 /// Multiplies all sums by a share: what they rest on counts so much less.
 void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share);

@@ -105,23 +105,24 @@ void jcal_chol_solve(const float *l, size_t n, const float *b, float *x)
     }
 }
 
-jcal_status_t jcal_chol_solve_damped(float *m, size_t n, float damping, float *x)
+jcal_status_t jcal_chol_factor_damped(float *m, size_t n, float damping, float *scale)
 {
-    float scale[JCAL_CHOL_MAX];
     jcal_chol_scale(m, n, scale);
     for (size_t i = 0u; i < n; ++i) {
         m[jcal_sym_at(i, i)] += damping;
-        x[i] *= scale[i];
     }
-    const jcal_status_t status = jcal_chol_factor_in_place(m, n, NULL);
-    if (status != JCAL_OK) {
-        return status;
-    }
-    jcal_chol_solve(m, n, x, x);
+    return jcal_chol_factor_in_place(m, n, NULL);
+}
+
+void jcal_chol_solve_scaled(const float *l, size_t n, const float *scale, float *x)
+{
     for (size_t i = 0u; i < n; ++i) {
         x[i] *= scale[i];
     }
-    return JCAL_OK;
+    jcal_chol_solve(l, n, x, x);
+    for (size_t i = 0u; i < n; ++i) {
+        x[i] *= scale[i];
+    }
 }
 
 void jcal_chol_inverse(const float *l, size_t n, float *inverse)

@@ -51,11 +51,15 @@ void jcal_chol_scale(float *m, size_t n, float *scale);
 /// x (n) <- M^-1 b (n) from the factor l. x may be b. Cost: n^2 multiply-adds, 2 n divisions.
 void jcal_chol_solve(const float *l, size_t n, const float *b, float *x);
 
-/// x (n) <- (M + damping D)^-1 x with D the diagonal of M (n x n), which is lost; brought to a unit diagonal before.
+/// m (n x n) <- factor of M + damping D, D the diagonal of M, brought to a unit diagonal before: for jcal_chol_solve_scaled.
 ///
-/// Errors:   JCAL_ERR_SINGULAR: x is lost too.
-/// Cost:     n^3 / 6 + 3 n^2 multiply-adds, 2 n square roots; stack about 150 B.
-JCAL_MUST_CHECK jcal_status_t jcal_chol_solve_damped(float *m, size_t n, float damping, float *x);
+/// Outputs:  scale (n), as jcal_chol_scale.
+/// Errors:   JCAL_ERR_SINGULAR: m is lost.
+/// Cost:     n^3 / 6 + n^2 multiply-adds, 2 n square roots.
+JCAL_MUST_CHECK jcal_status_t jcal_chol_factor_damped(float *m, size_t n, float damping, float *scale);
+
+/// x (n) <- M^-1 x from the factor l of the scaled matrix and its scale (n). Cost: as jcal_chol_solve.
+void jcal_chol_solve_scaled(const float *l, size_t n, const float *scale, float *x);
 
 /// inverse (n x n, packed) <- M^-1 from the factor l; for covariances only, equations are solved with jcal_chol_solve.
 ///
