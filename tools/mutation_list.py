@@ -6,6 +6,7 @@ tell from the original, with the reason.
 """
 
 MODEL = "lib/calib/hinge_model.c"
+SYMBLOCK = "lib/math/block.h"
 BLOCK = "lib/calib/hinge_block.c"
 REFINE = "lib/calib/hinge_refine.c"
 FORGET = "lib/calib/hinge_forget.c"
@@ -21,8 +22,10 @@ GATE = "lib/sample/gate.c"
 
 MUTATIONS = [
     (MODEL, "out[3] = w.x * w.y;", "out[3] = w.x * w.z;", "product xy"),
-    (MODEL, "out[i] -= sums[i] * c;", "out[i] += sums[i] * c;", "sign of the elimination of c"),
-    (MODEL, "b[i] -= first;", "b[i] += first;", "difference of coefficients"),
+    (MODEL, "out.of1 = jcal_vec3_sub(out.of1,", "out.of1 = jcal_vec3_add(out.of1,", "sign of the elimination of c"),
+    (MODEL, "jcal_vec3_dot(t2[c], across) - (share * s1[r] * s2[c]);",
+     "jcal_vec3_dot(t2[c], across) + (share * s1[r] * s2[c]);", "elimination of c in the matrix"),
+    (MODEL, "g[i] -= first;", "g[i] += first;", "difference of coefficients"),
     (MODEL, "out[1] = sign * (1.0f - (j.y * j.y));", "out[1] = sign * (1.0f + (j.y * j.y));", "sign in I - j j'"),
     (MODEL, "out[4] = sign * (-2.0f * j.x * j.z);",
      "out[4] = sign * (-1.0f * j.x * j.z);", "factor of a mixed product"),
@@ -33,8 +36,12 @@ MUTATIONS = [
      "column[5] = sign * (-2.0f * ((j.y * t.z) - (j.z * t.y)));", "symmetry of df/dj"),
     (MODEL, "return 1.0f / (2.0f * cfg->acc_bias_m_s2 * cfg->acc_bias_m_s2);",
      "return 1.0f / (cfg->acc_bias_m_s2 * cfg->acc_bias_m_s2);", "prior of the constant c"),
-    (MODEL, "out->gradient[r] = dot(columns[r], &mf[START_OF(r)], PRODUCTS);",
-     "out->gradient[r] = dot(columns[r], &mf[0], PRODUCTS);", "which sensor a column belongs to"),
+    (MODEL, "out->gradient[r] = jcal_dot6(columns[r], &mf[start]);",
+     "out->gradient[r] = jcal_dot6(columns[r], mf);", "gradient of the second sensor"),
+    (SYMBLOCK, "jcal_add6(y, v[i], jcal_block_row(m, 6u + i, 0u));",
+     "jcal_add6(y, v[5u - i], jcal_block_row(m, 6u + i, 0u));", "index in a product across the sensors"),
+    (SYMBLOCK, "(r2[0] * v.x) + (r2[1] * v.y) + (r2[2] * v.z)};",
+     "(r2[0] * v.x) + (r1[1] * v.y) + (r2[2] * v.z)};", "element of a 3 x 3 block"),
     (BLOCK, "jcal_plane_turn(turn1 - turn2)", "jcal_plane_turn(turn2 - turn1)", "sense of the joint angle"),
     (BLOCK, "jcal_plane_turn(turn1 + turn2)", "jcal_plane_turn(turn1 - turn2)", "joint angle of the other pairing"),
     (BLOCK, "const float half = 0.5f * dt_s;", "const float half = 0.6f * dt_s;", "trapezoidal rule"),
@@ -83,7 +90,10 @@ MUTATIONS = [
     (BOUNDS, "out->sure[at] = sum + (trust * acc.matrix[at]);",
      "out->sure[at] = sum + acc.matrix[at];", "discount of (25)"),
     (BOUNDS, "#define PRIOR_BLOCKS 6.0f", "#define PRIOR_BLOCKS 12.0f", "weight of the assumed scatter"),
-    (BOUNDS, "return mean * (1.0f + (SMALL_SAMPLE / blocks));", "return mean;", "few blocks"),
+    (BOUNDS, "#define PRIOR_DISTURBED 3.0f", "#define PRIOR_DISTURBED 1.0f", "disturbances outlast a block"),
+    (BOUNDS, "jcal_hinge_refine_blocks_of(refine, axis), 1.0f)", "jcal_hinge_refine_blocks_of(refine, 0u), 1.0f)",
+     "whose blocks count"),
+    (REFINE, "self->told2[axis] += told[axis] * told[axis];", "self->told2[axis] += told[axis];", "blocks of an axis"),
     (BOUNDS, "covariance[axis][1] += variance * part[0] * part[1];",
      "covariance[axis][1] += variance * part[0] * part[0];", "covariance of an axis"),
     (BOUNDS, "of_axis[axis] = mismatch * mismatch * power",

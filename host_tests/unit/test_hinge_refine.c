@@ -665,6 +665,40 @@ static void fading_scales_every_sum_and_nothing_else(void)
     TEST_ASSERT_EQUAL_FLOAT(jcal_hinge_refine_noise(&before), jcal_hinge_refine_noise(&engine.refine));
 }
 
+/* Rounding that ends in NaN must not reach the axes: the gains of the biases and the step are refused one by one. */
+static void sums_that_are_no_numbers_move_nothing(void)
+{
+    const motion_t motion = motion_for(5, 0.02);
+    const size_t spoilt[2] = {jcal_sym_at(4, 4), jcal_sym_at(0, 0)};
+    for (int i = 0; i < 2; ++i) {
+        start_beside(&motion, 0.5f, 0.5f);
+        feed(&motion, 0, 200);
+        const jcal_hinge_point_t before = engine.refine.point;
+        engine.refine.matrix[spoilt[i]] = NAN;
+        feed(&motion, 200, 300);
+        TEST_ASSERT_EQUAL_MEMORY(&before, &engine.refine.point, sizeof before);
+    }
+}
+
+static void an_axis_goes_over_alone_only_while_the_other_one_is_where_it_was(void)
+{
+    const motion_t motion = motion_for(5, 0.02);
+    for (int moved = 0; moved < 2; ++moved) {
+        start_beside(&motion, 0.0f, 0.0f);
+        feed(&motion, 0, 200);
+        engine.refine.matrix[jcal_sym_at(2, 2)] = 0.0f; /* nothing known of axis 2 */
+        engine.refine.matrix[jcal_sym_at(3, 3)] = 0.0f;
+        jcal_hinge_point_t to = engine.refine.point;
+        const jcal_vec3_t towards = jcal_vec3(0.36f, 0.48f, 0.8f);
+        jcal_hinge_point_set(&to, beside(to.axis1.j, towards, (moved == 1) ? 20.0f : 0.0f),
+                             beside(to.axis2.j, towards, 40.0f));
+        jcal_hinge_refine_go(&engine.refine, &to);
+        TEST_ASSERT_TRUE(jcal_sphere_angle(to.axis1.j, engine.refine.point.axis1.j) < 1e-3f);
+        TEST_ASSERT_TRUE(jcal_sphere_angle(to.axis2.j, engine.refine.point.axis2.j) < 1e-3f);
+        TEST_ASSERT_TRUE((engine.refine.blocks > 0.0f) == (moved == 0)); /* else it begins anew */
+    }
+}
+
 static float error_of(const motion_t *motion, int sensor)
 {
     const jcal_hinge_axis_t *const axis = (sensor == 0) ? &engine.refine.point.axis1 : &engine.refine.point.axis2;
@@ -935,6 +969,8 @@ int main(void)
     RUN_TEST(blocks_last_a_tenth_of_the_time_covered_within_limits);
     RUN_TEST(no_block_spans_an_interruption);
     RUN_TEST(fading_scales_every_sum_and_nothing_else);
+    RUN_TEST(sums_that_are_no_numbers_move_nothing);
+    RUN_TEST(an_axis_goes_over_alone_only_while_the_other_one_is_where_it_was);
     RUN_TEST(exact_motion_leads_from_two_degrees_off_to_the_truth);
     RUN_TEST(a_bias_of_the_gyroscopes_is_found);
     RUN_TEST(planar_motion_shows_the_axes_to_first_order);

@@ -41,7 +41,7 @@
 /// Entering `ready` takes bounds below this share of the limit, staying there the limit itself.
 #define ENTER_SHARE 0.98f
 
-/// Judgements in a row, one each 40 ms, that must agree before `ready`.
+/// Judgements in a row, one each 45 ms, that must agree before `ready`.
 #define AGREED_MIN 6u
 
 /// Rounds of the global check, half a second each, after which the axes should have been found.

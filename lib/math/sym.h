@@ -74,32 +74,6 @@ static inline void jcal_sym_times(const float *m, size_t n, const float *v, floa
     }
 }
 
-/// A vector that is zero outside of its elements first .. first + count - 1.
-typedef struct {
-    size_t first;
-    size_t count;
-    const float *values;  ///< (count)
-} jcal_sym_run_t;
-
-/// y (n) <- y + m v, with m (n x n) and v (n) given by its run.
-///
-/// Cost:     count n multiply-adds.
-static inline void jcal_sym_add_run(const float *m, size_t n, const jcal_sym_run_t *run, float *y)
-{
-    for (size_t c = 0u; c < run->count; ++c) {
-        const size_t j = run->first + c;
-        const float *const row = &m[JCAL_SYM_SIZE(j)];
-        for (size_t i = 0u; i < j; ++i) {
-            y[i] += row[i] * run->values[c];
-        }
-        size_t k = JCAL_SYM_SIZE(j) + j;
-        for (size_t i = j; i < n; ++i) {
-            y[i] += m[k] * run->values[c];
-            k += i + 1u;
-        }
-    }
-}
-
 /// v^T m v, with m (n x n), v (n). Cost: n (n + 3) / 2 multiply-adds.
 static inline float jcal_sym_quadratic(const float *m, size_t n, const float *v)
 {
@@ -117,22 +91,6 @@ static inline float jcal_sym_quadratic(const float *m, size_t n, const float *v)
         ++k;
     }
     return diagonal + (2.0f * below);
-}
-
-/// u^T m v, with m (n x n), u and v (n). Cost: n (n + 1) multiply-adds.
-static inline float jcal_sym_bilinear(const float *m, size_t n, const float *u, const float *v)
-{
-    float sum = 0.0f;
-    size_t k = 0u;
-    for (size_t i = 0u; i < n; ++i) {
-        for (size_t j = 0u; j < i; ++j) {
-            sum += m[k] * ((u[i] * v[j]) + (u[j] * v[i]));
-            ++k;
-        }
-        sum += m[k] * u[i] * v[i];
-        ++k;
-    }
-    return sum;
 }
 
 /// out (k x k) <- T^T m T, with m (n x n) and T (n x k, row-major). `out` must not overlap `m` or `T`.
