@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Builds and tests for Cortex-M processors in QEMU: tools/test_target.sh [PRESET...]
 #
-# Installs what is missing (as root; otherwise it prints the command). m4f runs every unit test; on the others the long ones
-# (tests_long below) are left out, because they take minutes each in QEMU and would exercise the same sources again; name
-# presets to run all tests on them. Then: same bits on host and targets, and the budget.
+# Installs what is missing (as root; otherwise it prints the command). Every preset runs every unit test. Then: same bits on
+# host and targets, and the budget. With presets named, only their tests.
 # Log files go to build/logs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -15,19 +14,13 @@ mkdir -p "$logs"
 need_packages "${build_packages[@]}" gcc-arm-none-eabi picolibc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
 tools/unity.sh
 
-tests_long='test_(hinge_long|hinge_never|hinge_weights|hinge_window|hinge_judge|hinge_bounds|select_acc|hinge|hinge_refine|select)$'
 presets=("$@")
 ((${#presets[@]})) || presets=(m4f m3 m7 m33)
 for preset in "${presets[@]}"; do
     printf '\n== Target, preset %s\n' "$preset"
     cmake --preset "$preset" > "$logs/configure-$preset.log"
     cmake --build --preset "$preset"
-    leave_out=()
-    if (($# == 0)) && [[ $preset != m4f ]]; then
-        leave_out=(--exclude-regex "$tests_long")
-        echo "Left out here, run with m4f: $tests_long"
-    fi
-    ctest --preset "$preset" -j2 "${leave_out[@]}" | tee "$logs/ctest-$preset.log"
+    ctest --preset "$preset" -j2 | tee "$logs/ctest-$preset.log"
 done
 
 if (($# == 0)); then

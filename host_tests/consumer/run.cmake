@@ -13,10 +13,16 @@ endfunction()
 
 function(build_with_cmake)
     run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/${KIND} -B ${WORK}/build -G ${GENERATOR}
-        -D CMAKE_C_COMPILER=${CC} ${ARGV})
+        ${compiler} ${ARGV})
     run(${CMAKE_COMMAND} --build ${WORK}/build)
-    run(${WORK}/build/consumer)
+    run(${EMULATOR} ${WORK}/build/consumer)
 endfunction()
+
+# With TOOLCHAIN and EMULATOR: as a firmware project would, run on an emulated board.
+set(compiler -D CMAKE_C_COMPILER=${CC})
+if(TOOLCHAIN)
+    set(compiler -D CMAKE_TOOLCHAIN_FILE=${TOOLCHAIN})
+endif()
 
 if(KIND STREQUAL "add_subdirectory")
     build_with_cmake(-D JOINTCAL_SOURCE=${SOURCE})

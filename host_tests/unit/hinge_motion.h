@@ -31,12 +31,12 @@ typedef struct {
 
 static inline double motion_noise(uint32_t *state)
 {
-    double sum = 0.0;
+    uint32_t sum = 0; /* whole, as processors without double precision spend most of a test here otherwise */
     for (int k = 0; k < 6; ++k) {
         *state = (*state * 1664525u) + 1013904223u;
-        sum += ((double)(*state >> 8) / 16777216.0) - 0.5;
+        sum += *state >> 8;
     }
-    return sum * 1.41421356; /* six uniform numbers: standard deviation 1 */
+    return (((double)sum / 16777216.0) - 3.0) * 1.41421356; /* six uniform numbers: standard deviation 1 */
 }
 
 static inline jcal_vec3_t motion_noise3(double size, uint32_t *state)

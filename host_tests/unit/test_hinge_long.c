@@ -7,12 +7,26 @@
 
 enum { HOUR = 90000 }; /* samples at 25 Hz */
 
-/* Builds with sanitizers or counters, and emulated targets (JCAL_TEST_SHORT), take thirty times as long; they look at
-   the same code for fewer hours. */
-#if defined(NDEBUG) && !defined(JCAL_TEST_SHORT)
-enum { MOTION_HOURS = 3, NIGHT_HOURS = 8 };
+/* Builds with sanitizers or counters take thirty times as long; they look at the same code for fewer hours. Emulated targets
+   (JCAL_TEST_SHORT), which may have no FPU, take longer still: a quarter of an hour holds several halvings of the sums of
+   motion, and one of the accelerometers', which then weigh four times more; ten minutes of rest saturate what rest adds. */
+#if defined(JCAL_TEST_SHORT)
+static const double MOTION_HOURS = 0.25;
+static const double POSES_HOURS = 0.25;
+static const double REST_HOURS = 0.17;
+static const double NIGHT_HOURS = 0.17;
+static const float POSES_ACC_NOISE_M_S2 = 0.05f;
 #else
-enum { MOTION_HOURS = 1, NIGHT_HOURS = 2 };
+#if defined(NDEBUG)
+static const double MOTION_HOURS = 3.0;
+static const double NIGHT_HOURS = 8.0;
+#else
+static const double MOTION_HOURS = 1.0;
+static const double NIGHT_HOURS = 2.0;
+#endif
+static const double POSES_HOURS = 1.0;
+static const double REST_HOURS = 1.0;
+static const float POSES_ACC_NOISE_M_S2 = 0.1f; /* weighs the accelerometers 200 times more than usual */
 #endif
 
 /* Largest sums that may occur: the limits in hinge.c, 3600 rad^2/s of motion and 2e4 of accelerometer weight, and what
@@ -43,10 +57,11 @@ static void hours_of_motion_keep_the_sums_bounded_and_the_axes_right(void)
     motion_t motion = motion_lively(3);
     motion.rate_hz = 25.0;
     motion.speed = 2.0;
+    const uint32_t samples = (uint32_t)(MOTION_HOURS * HOUR);
     double squares = 0.0; /* integral of the squared rates, rad^2/s */
     uint32_t halvings = 0;
     float before = 0.0f;
-    for (uint32_t k = 0; k < (uint32_t)(MOTION_HOURS * HOUR); ++k) {
+    for (uint32_t k = 0; k < samples; ++k) {
         const jcal_pair_t pair = motion_sample(&motion, k);
         squares += 0.04 * (double)(jcal_vec3_dot(pair.imu1.gyr_rad_s, pair.imu1.gyr_rad_s) +
                                    jcal_vec3_dot(pair.imu2.gyr_rad_s, pair.imu2.gyr_rad_s));
@@ -65,7 +80,7 @@ static void hours_of_motion_keep_the_sums_bounded_and_the_axes_right(void)
     /* Halved at 3600, and again each time that 1800 have come in; the last may still be on the way. */
     TEST_ASSERT_TRUE(squares > 1e4);
     TEST_ASSERT_TRUE((double)halvings >= floor((squares / 1800.0) - 2.0));
-    TEST_ASSERT_EQUAL_UINT32(MOTION_HOURS * HOUR, result_of(&engine).samples);
+    TEST_ASSERT_EQUAL_UINT32(samples, result_of(&engine).samples);
 }
 
 static void accelerometer_sums_are_bounded_too(void)
@@ -75,11 +90,12 @@ static void accelerometer_sums_are_bounded_too(void)
     motion.rate_hz = 25.0;
     motion.speed = 0.3;
     motion.joint_speed = 0.3;
-    config.acc_noise_m_s2 = 0.1f; /* weighs the accelerometers 200 times more than usual: hours pass in a minute */
+    config.acc_noise_m_s2 = POSES_ACC_NOISE_M_S2; /* hours pass in a minute */
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_init(&engine, &config));
+    const uint32_t samples = (uint32_t)(POSES_HOURS * HOUR);
     uint32_t halvings = 0;
     float before = 0.0f;
-    for (uint32_t k = 0; k < HOUR; ++k) {
+    for (uint32_t k = 0; k < samples; ++k) {
         run(&engine, &motion, k, k + 1);
         const float now = engine.moments.acc[jcal_sym_at(6, 6)];
         halvings += (now < 0.75f * before) ? 1u : 0u;
@@ -132,23 +148,23 @@ static void rest_for(uint32_t mounting, double hours, double noise1_rad_s, doubl
 
 static void after_an_hour_of_rest_the_calibration_is_still_there(void)
 {
-    rest_for(4, 1.0, 0.01, 0.01);
+    rest_for(4, REST_HOURS, 0.01, 0.01);
 }
 
 static void after_a_night_of_rest_the_calibration_is_still_there(void)
 {
-    rest_for(4, (double)NIGHT_HOURS, 0.003, 0.003);
+    rest_for(4, NIGHT_HOURS, 0.003, 0.003);
 }
 
 /* The squared noise of a rate does not average out: with unequal noise it pulls at the axes for as long as it counts. */
 static void after_a_night_of_rest_with_a_noisy_sensor_1_the_calibration_is_still_there(void)
 {
-    rest_for(1, (double)NIGHT_HOURS, 0.03, 0.003);
+    rest_for(1, NIGHT_HOURS, 0.03, 0.003);
 }
 
 static void after_a_night_of_rest_with_a_noisy_sensor_2_the_calibration_is_still_there(void)
 {
-    rest_for(1, (double)NIGHT_HOURS, 0.003, 0.03);
+    rest_for(1, NIGHT_HOURS, 0.003, 0.03);
 }
 
 int main(void)
