@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Targets format_check, tidy and cppcheck. They exist where their tool does; tools/test.sh installs and builds them all.
 set(analysis_folders include lib tools/cli tools/example host_tests/unit host_tests/program host_tests/consumer host_tests/fuzz tools/native
-    host_tests/bench port/hub)
+    host_tests/bench host_tests/hub port/hub)
 set(format_patterns ${analysis_folders} port/cortex_m port/boards)
 set(source_patterns ${analysis_folders})
 list(TRANSFORM format_patterns APPEND "/*.[ch]")
