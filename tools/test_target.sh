@@ -4,7 +4,7 @@
 #
 # Installs what is missing (as root; otherwise it prints the command). m4f runs every unit test; on the others the long ones
 # (tests_long below) are left out, because they take minutes each in QEMU and would exercise the same sources again; name
-# presets to run all tests on them. Then: same bits on host and targets, and the budget.
+# presets to run all tests on them. Then: same bits on host and targets, the hub in QEMU, and the budget.
 # Log files go to build/logs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -33,6 +33,9 @@ done
 if (($# == 0)); then
     printf '\n== Same bits\n'
     tools/same_bits.py
+    printf '\n== Hub in QEMU, as on the PC\n'
+    tools/hub_demo.sh --check
+    tools/hub_demo.sh --check --board stm32f405
     printf '\n== Budget\n'
     tools/budget.py --check
 fi
