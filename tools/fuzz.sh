@@ -3,27 +3,53 @@
 # Builds and runs the fuzzers under address and undefined behaviour sanitizers: tools/fuzz.sh [RUNS [TARGET...]]
 #
 # RUNS executions of the reader (default 20000) and a hundredth as many of push, each of which pushes up to 50 samples into
-# both engines. Inputs that reach new code are kept in build/fuzz; host_tests/fuzz/corpus is where every run starts. tools/fuzz.sh merge copies what is worth keeping there.
+# both engines; of the hub's frames as many as of the reader, and then tools/fuzz.sh frames with as many frames. Inputs that reach new code are kept in build/fuzz; host_tests/fuzz/corpus is where every run starts. tools/fuzz.sh merge copies what is worth keeping there.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source tools/packages.sh
 need_packages clang-14 libclang-rt-14-dev
 
+# tools/fuzz.sh frames [COUNT]: feeds COUNT (default 10 million) random and damaged frames to the decoder and holds what it
+# accepts against the odds of the CRC; 10 million and more write docs/measurements/frames.md.
+frames() {
+    local count=$1 report=build/fuzz/frames.md
+    ((count >= 10000000)) && report=docs/measurements/frames.md
+    mkdir -p build/fuzz
+    clang-14 -std=c99 -g -O2 -Wall -Wextra -Werror -Iport/hub -fsanitize=address,undefined -fno-sanitize-recover=all \
+        port/hub/frame.c host_tests/fuzz/run_frames.c -o build/fuzz/run_frames
+    echo "run_frames: $count frames (report: $report)"
+    build/fuzz/run_frames "$count" > build/fuzz/run_frames.txt || { cat build/fuzz/run_frames.txt >&2 && exit 1; }
+    {
+        printf '# Random and damaged frames\n\nWritten by `tools/fuzz.sh frames %s`, under address and undefined behaviour sanitizers.\n\n' "$count"
+        printf 'Pieces are what the decoder had to judge: a damage that makes a zero makes two. Accepted: frames that came out of a\n'
+        printf 'damaged piece. Frames that the damage left as they were do not count; they must be accepted, and were.\n\n'
+        printf '| kind | frames | pieces | accepted |\n| --- | --- | --- | --- |\n'
+        sed '/^|/!s/^/\n/' build/fuzz/run_frames.txt
+    } > "$report"
+    tail -n 1 "$report"
+}
+if [[ ${1:-} == frames ]]; then
+    frames "${2:-10000000}"
+    exit 0
+fi
+
 runs=${1:-20000}
 shift || true
 targets=("$@")
-((${#targets[@]} > 0)) || targets=(reader push)
+((${#targets[@]} > 0)) || targets=(reader push frame)
 out=build/fuzz
 mkdir -p "$out"
 
-flags=(-std=c99 -g -O1 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -Wall -Wextra -Werror -Iinclude -Ilib -Itools/cli
+flags=(-std=c99 -g -O1 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -Wall -Wextra -Werror -Iinclude -Ilib -Itools/cli -Iport/hub
     -fsanitize=fuzzer,address,undefined,float-cast-overflow -fno-sanitize-recover=all)
 mapfile -t library < <(find lib -name '*.c' | sort)
+hub=(port/hub/frame.c port/hub/messages.c port/hub/hub.c)
 reader=(tools/cli/csv.c tools/cli/number.c tools/cli/recording.c)
 
 for target in "${targets[@]}"; do
     sources=("host_tests/fuzz/fuzz_$target.c" "${library[@]}")
     [[ $target == reader ]] && sources+=("${reader[@]}")
+    [[ $target == frame ]] && sources+=("${hub[@]}")
     clang-14 "${flags[@]}" "${sources[@]}" -o "$out/fuzz_$target" -lm
     corpus=host_tests/fuzz/corpus/$target
     mkdir -p "$out/$target"
@@ -47,3 +73,4 @@ for target in "${targets[@]}"; do
     sed -n 's/^stat::number_of_executed_units: */  executed: /p; s/^stat::peak_rss_mb: */  peak memory, MB: /p' \
         "$out/$target.log"
 done
+[[ $runs == merge ]] || frames "$((runs * 10))"

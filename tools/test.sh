@@ -53,6 +53,8 @@ for script in tools/make_golden.py tools/make_demo.py; do
 done
 step "Measurements, a short run"
 "$python" tools/measure.py all --quick --no-qmt
+step "Hub over a bad wire, a short run"
+"$python" tools/hub_soak.py --minutes 1
 step "Targets"
 tools/test_target.sh
 step "All steps passed"

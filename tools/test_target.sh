@@ -3,7 +3,7 @@
 # Builds and tests for Cortex-M processors in QEMU: tools/test_target.sh [PRESET...]
 #
 # Installs what is missing (as root; otherwise it prints the command). Every preset runs every unit test. Then: same bits on
-# host and targets, and the budget. With presets named, only their tests.
+# host and targets, the hub in QEMU, and the budget. With presets named, only their tests.
 # Log files go to build/logs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -26,6 +26,9 @@ done
 if (($# == 0)); then
     printf '\n== Same bits\n'
     tools/same_bits.py
+    printf '\n== Hub in QEMU, as on the PC\n'
+    tools/hub_demo.sh --check
+    tools/hub_demo.sh --check --board stm32f405
     printf '\n== Budget\n'
     tools/budget.py --check
 fi

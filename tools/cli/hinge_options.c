@@ -2,7 +2,7 @@
 /* Command line of `jointcal hinge`. */
 #include "hinge_options.h"
 
-#include "number.h"
+#include "option_values.h"
 
 #include <argp.h>
 #include <math.h>
@@ -40,38 +40,9 @@ typedef struct {
     bool has_window;
 } parse_t;
 
-/* Index of `word` in a list of two; anything else is an error. */
-static int one_of_two(struct argp_state *state, const char *option, const char *word, const char *first,
-                      const char *second)
-{
-    if (strcmp(word, first) != 0 && strcmp(word, second) != 0) {
-        argp_error(state, "--%s: '%s' is neither %s nor %s", option, word, first, second);
-    }
-    return strcmp(word, first) != 0;
-}
-
-/* Seconds, more than zero. */
-static int64_t duration(struct argp_state *state, const char *option, const char *text)
-{
-    int64_t us = 0;
-    if (number_to_us(text, &us) != NUMBER_FINITE || us <= 0) {
-        argp_error(state, "--%s: '%s' is not a number of seconds above 0", option, text);
-    }
-    return us;
-}
-
-static float positive(struct argp_state *state, const char *option, const char *text)
-{
-    float value = 0.0f;
-    if (number_to_float(text, &value) != NUMBER_FINITE || value <= 0.0f) {
-        argp_error(state, "--%s: '%s' is not a number above 0", option, text);
-    }
-    return value;
-}
-
 static uint16_t sample_count(struct argp_state *state, const char *text)
 {
-    const float value = positive(state, "n-max", text);
+    const float value = option_positive(state, "n-max", text);
     if (value > 65535.0f || floorf(value) != value) {
         argp_error(state, "--n-max: '%s' is not a whole number from 20 to 10000", text);
     }
@@ -107,25 +78,26 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
     engine_config_t *engine = &parse->options.engine;
     switch (key) {
     case KEY_ENGINE:
-        engine->kind = (jcal_engine_t)one_of_two(state, "engine", argument, "stream", "window");
+        engine->kind = (jcal_engine_t)option_one_of_two(state, "engine", argument, "stream", "window");
         return 0;
     case KEY_N_MAX:
         engine->config.n_max = sample_count(state, argument);
         parse->has_n_max = true;
         return 0;
     case KEY_WINDOW:
-        (void)duration(state, "window", argument);
+        (void)option_duration(state, "window", argument);
         parse->has_window = true;
         return 0;
     case KEY_EVERY:
-        parse->options.every_us = duration(state, "every", argument);
+        parse->options.every_us = option_duration(state, "every", argument);
         return 0;
     case KEY_MAX_BOUND:
-        engine->config.hinge.max_bound_rad = positive(state, "max-bound", argument) * RAD_PER_DEG;
+        engine->config.hinge.max_bound_rad = option_positive(state, "max-bound", argument) * RAD_PER_DEG;
         return 0;
     case KEY_SIGN_HINT:
-        engine->config.hinge.sign_hint =
-            (one_of_two(state, "sign-hint", argument, "same", "opposite") == 0) ? JCAL_SIGN_SAME : JCAL_SIGN_OPPOSITE;
+        engine->config.hinge.sign_hint = (option_one_of_two(state, "sign-hint", argument, "same", "opposite") == 0)
+                                             ? JCAL_SIGN_SAME
+                                             : JCAL_SIGN_OPPOSITE;
         return 0;
     case KEY_JSON:
         parse->options.json = true;

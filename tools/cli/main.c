@@ -3,6 +3,7 @@
 #include "hinge_command.h"
 #include "jointcal/jointcal.h"
 #include "message.h"
+#include "stream_command.h"
 
 #include <argp.h>
 #include <signal.h>
@@ -16,8 +17,9 @@ typedef struct {
 } command_t;
 
 static char hinge_name[] = "jointcal hinge";
+static char stream_name[] = "jointcal stream";
 
-static const command_t COMMANDS[] = {{"hinge", hinge_command, hinge_name}};
+static const command_t COMMANDS[] = {{"hinge", hinge_command, hinge_name}, {"stream", stream_command, stream_name}};
 
 #define COMMAND_COUNT (sizeof COMMANDS / sizeof COMMANDS[0])
 
@@ -51,25 +53,26 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         choice->command = find_command(argument);
         choice->index = state->next - 1;
         if (choice->command == NULL) {
-            argp_error(state, "no subcommand '%s'; there is: hinge", argument);
+            argp_error(state, "no subcommand '%s'; there is: hinge, stream", argument);
         }
         state->next = state->argc;
         return 0;
     }
     if (key == ARGP_KEY_NO_ARGS) {
-        argp_error(state, "which subcommand? There is: hinge");
+        argp_error(state, "which subcommand? There is: hinge, stream");
     }
     return ARGP_ERR_UNKNOWN;
 }
 
 static const struct argp PARSER = {
     .parser = parse,
-    .args_doc = "hinge RECORDING.csv [OPTION...]",
+    .args_doc = "hinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]",
     .doc = "Finds out how the IMUs of a recording sit on the two sides of a joint.\v"
            "Subcommands:\n"
            "  hinge    both axes of a joint with one axis, like a knee or a finger joint\n"
+           "  stream   plays a recording to a hub and writes what the hub finds\n"
            "\n"
-           "'jointcal hinge --help' tells all about it.",
+           "'jointcal hinge --help' and 'jointcal stream --help' tell all about them.",
 };
 
 int main(int argc, char **argv)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Targets format_check, tidy and cppcheck. They exist where their tool does; tools/test.sh installs and builds them all.
 set(analysis_folders include lib tools/cli tools/example host_tests/unit host_tests/program host_tests/consumer host_tests/fuzz tools/native
-    host_tests/bench)
-set(format_patterns ${analysis_folders} port/cortex_m)
+    host_tests/bench host_tests/hub port/hub)
+set(format_patterns ${analysis_folders} port/cortex_m port/boards)
 set(source_patterns ${analysis_folders})
 list(TRANSFORM format_patterns APPEND "/*.[ch]")
 list(TRANSFORM source_patterns APPEND "/*.c")
@@ -33,6 +33,6 @@ if(JOINTCAL_CPPCHECK)
         COMMAND ${JOINTCAL_CPPCHECK} --quiet --std=c99 --error-exitcode=1 --inline-suppr -j ${processors}
                 --enable=warning,performance,portability --suppress=missingIncludeSystem -U JCAL_CONFIG_HEADER
                 --suppress=*:*/unity/* -I ${PROJECT_SOURCE_DIR}/include -I ${PROJECT_SOURCE_DIR}/lib
-                -I ${PROJECT_SOURCE_DIR}/tools/cli -I ${PROJECT_SOURCE_DIR}/host_tests ${source_files}
+                -I ${PROJECT_SOURCE_DIR}/tools/cli -I ${PROJECT_SOURCE_DIR}/port/hub -I ${PROJECT_SOURCE_DIR}/host_tests ${source_files}
         VERBATIM)
 endif()

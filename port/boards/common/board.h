@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// What the hub's main program needs from a board: one UART, a way to sleep, a light. Each board implements it in board.c.
+#ifndef JCAL_BOARDS_BOARD_H
+#define JCAL_BOARDS_BOARD_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+/// Where the board hands over received bytes: to be called in the UART's interrupt. Implemented by common/main.c.
+void board_received(uint8_t byte);
+
+/// Starts clock and UART, 115200 baud, 8N1, with its receive interrupt on.
+void board_init(void);
+
+/// Can the UART take another byte?
+bool board_can_send(void);
+
+/// Hands a byte to the UART; only after board_can_send.
+void board_send(uint8_t byte);
+
+/// Asks for an interrupt when the UART can take another byte: it ends a sleep, and has nothing else to do.
+void board_wake_when_sent(void);
+
+/// The light that says that something is wrong.
+void board_error_light(void);
+
+#endif

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: MIT */
+/* The hub on a board: receives in the UART's interrupt, works and sends in the main loop, sleeps in between. */
+#include "board.h"
+#include "hub.h"
+
+static hub_t hub;
+
+void board_received(uint8_t byte)
+{
+    hub_receive(&hub, byte);
+}
+
+static void send_what_fits(void)
+{
+    uint8_t byte = 0;
+    while (board_can_send() && hub_send(&hub, &byte)) {
+        board_send(byte);
+    }
+}
+
+/* With interrupts masked, so that a byte that comes after the look still ends the sleep: a pending interrupt ends wfi even
+ * while it is masked. */
+static void sleep_if_idle(void)
+{
+    const bool to_send = hub_send_count(&hub) > 0;
+    if (to_send) {
+        board_wake_when_sent();
+    }
+    __asm volatile("cpsid i" ::: "memory");
+    if (!hub_waiting(&hub) || to_send) {
+        if (!(to_send && board_can_send())) {
+            __asm volatile("dsb\n wfi" ::: "memory");
+        }
+    }
+    __asm volatile("cpsie i" ::: "memory");
+}
+
+int main(void)
+{
+    hub_init(&hub);
+    board_init();
+    for (;;) {
+        const bool worked = hub_work(&hub);
+        send_what_fits();
+        if (!worked) {
+            sleep_if_idle();
+        }
+    }
+}

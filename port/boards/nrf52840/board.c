@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: MIT */
+/* nRF52840 [Product Specification]: UART0 (the one without DMA, which tells of every byte) on P0.06 (TX) and P0.08 (RX), the
+ * pins of the nRF52840 DK's USB serial port; error light P0.13, its LED1, active low.
+ *
+ * Not run so far: neither on the board, nor in an emulator. */
+#include "board.h"
+#include "cortex_m.h"
+
+#define CLOCK 0x40000000u
+#define CLOCK_HFCLKSTART REGISTER(CLOCK + 0x000u)
+#define CLOCK_HFCLKSTARTED REGISTER(CLOCK + 0x100u)
+
+#define UART 0x40002000u
+#define UART_STARTRX REGISTER(UART + 0x000u)
+#define UART_STARTTX REGISTER(UART + 0x008u)
+#define UART_RXDRDY REGISTER(UART + 0x108u)
+#define UART_TXDRDY REGISTER(UART + 0x11Cu)
+#define UART_ERROR REGISTER(UART + 0x124u)
+#define UART_INTENSET REGISTER(UART + 0x304u) /* bit 2: RXDRDY, bit 7: TXDRDY, bit 9: ERROR */
+#define UART_ERRORSRC REGISTER(UART + 0x480u) /* write 1 to clear */
+#define UART_ENABLE REGISTER(UART + 0x500u)
+#define UART_PSEL_TXD REGISTER(UART + 0x50Cu)
+#define UART_PSEL_RXD REGISTER(UART + 0x514u)
+#define UART_RXD REGISTER(UART + 0x518u)
+#define UART_TXD REGISTER(UART + 0x51Cu)
+#define UART_BAUDRATE REGISTER(UART + 0x524u)
+#define UART_CONFIG REGISTER(UART + 0x56Cu) /* 0: no flow control, no parity, one stop bit */
+#define UART_BAUD_115200 0x01D7E000u
+#define UART_ENABLED 4u
+#define UART_INTERRUPT 2u
+
+#define GPIO_P0 0x50000000u
+#define P0_OUTSET REGISTER(GPIO_P0 + 0x508u)
+#define P0_OUTCLR REGISTER(GPIO_P0 + 0x50Cu)
+#define P0_DIRSET REGISTER(GPIO_P0 + 0x518u)
+#define TXD_PIN 6u
+#define RXD_PIN 8u
+#define LIGHT_PIN 13u
+
+/* A byte is on its way: TXDRDY has not come since it was written. Written by the main loop; start_fault may look. */
+static volatile bool sending;
+
+/* The receiver holds up to six bytes; each reading of RXD makes room and, if there is another, a new event. */
+static void uart(void)
+{
+    if (UART_ERROR != 0) {
+        UART_ERROR = 0;
+        UART_ERRORSRC = UART_ERRORSRC; /* what was damaged shows in the CRC */
+    }
+    while (UART_RXDRDY != 0) {
+        UART_RXDRDY = 0;
+        board_received((uint8_t)UART_RXD);
+    }
+    if (UART_TXDRDY != 0) {
+        UART_TXDRDY = 0;
+        (void)UART_TXDRDY; /* the write has arrived before the interrupt ends */
+        sending = false;
+    }
+}
+
+#define INTERRUPTS (UART_INTERRUPT + 1u)
+extern const vector_t board_vectors[SYSTEM_VECTORS + INTERRUPTS];
+__attribute__((section(".vectors"), used)) const vector_t board_vectors[SYSTEM_VECTORS + INTERRUPTS] = {
+    SYSTEM_VECTOR_TABLE, [SYSTEM_VECTORS + UART_INTERRUPT] = uart};
+
+void board_init(void)
+{
+    /* The crystal, because the internal oscillator is too coarse for a UART. */
+    CLOCK_HFCLKSTARTED = 0;
+    CLOCK_HFCLKSTART = 1;
+    while (CLOCK_HFCLKSTARTED == 0) {
+    }
+    P0_OUTSET = (1u << TXD_PIN) | (1u << LIGHT_PIN);
+    P0_DIRSET = (1u << TXD_PIN) | (1u << LIGHT_PIN);
+    UART_PSEL_TXD = TXD_PIN;
+    UART_PSEL_RXD = RXD_PIN;
+    UART_CONFIG = 0;
+    UART_BAUDRATE = UART_BAUD_115200;
+    UART_ENABLE = UART_ENABLED;
+    UART_INTENSET = (1u << 2) | (1u << 7) | (1u << 9);
+    enable_interrupt(UART_INTERRUPT);
+    UART_STARTTX = 1;
+    UART_STARTRX = 1;
+}
+
+/* With interrupts masked, as in start_fault, the flag is looked at directly. */
+bool board_can_send(void)
+{
+    return !sending || UART_TXDRDY != 0;
+}
+
+void board_send(uint8_t byte)
+{
+    UART_TXDRDY = 0;
+    sending = true;
+    UART_TXD = byte;
+}
+
+/* The interrupt is always on. */
+void board_wake_when_sent(void)
+{
+}
+
+void board_error_light(void)
+{
+    P0_OUTCLR = 1u << LIGHT_PIN;
+    P0_DIRSET = 1u << LIGHT_PIN;
+}

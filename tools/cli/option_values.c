@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: MIT */
+/* Values of command line options. */
+#include "option_values.h"
+
+#include "number.h"
+
+#include <string.h>
+
+int option_one_of_two(struct argp_state *state, const char *option, const char *word, const char *first,
+                      const char *second)
+{
+    if (strcmp(word, first) != 0 && strcmp(word, second) != 0) {
+        argp_error(state, "--%s: '%s' is neither %s nor %s", option, word, first, second);
+    }
+    return strcmp(word, first) != 0;
+}
+
+int64_t option_duration(struct argp_state *state, const char *option, const char *text)
+{
+    int64_t us = 0;
+    if (number_to_us(text, &us) != NUMBER_FINITE || us <= 0) {
+        argp_error(state, "--%s: '%s' is not a number of seconds above 0", option, text);
+    }
+    return us;
+}
+
+float option_positive(struct argp_state *state, const char *option, const char *text)
+{
+    float value = 0.0f;
+    if (number_to_float(text, &value) != NUMBER_FINITE || value <= 0.0f) {
+        argp_error(state, "--%s: '%s' is not a number above 0", option, text);
+    }
+    return value;
+}

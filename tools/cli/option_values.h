@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Values of command line options that several subcommands share. A wrong value ends the program with a message.
+#ifndef JCAL_CLI_OPTION_VALUES_H
+#define JCAL_CLI_OPTION_VALUES_H
+
+#include <argp.h>
+#include <stdint.h>
+
+/// Index of `word` in a list of two; anything else is an error.
+int option_one_of_two(struct argp_state *state, const char *option, const char *word, const char *first,
+                      const char *second);
+
+/// Seconds, more than zero; in microseconds.
+int64_t option_duration(struct argp_state *state, const char *option, const char *text);
+
+/// A number above zero.
+float option_positive(struct argp_state *state, const char *option, const char *text);
+
+#endif
