@@ -141,7 +141,7 @@ static void any_single_and_double_bit_flip_is_found(void)
             uint8_t damaged[FRAME_WIRE_MAX];
             memcpy(damaged, wire, size);
             damaged[first / 8u] ^= (uint8_t)(1u << (first % 8u));
-            damaged[second / 8u] ^= (second == first) ? 0 : (uint8_t)(1u << (second % 8u));
+            damaged[second / 8u] ^= (uint8_t)((second == first) ? 0u : 1u << (second % 8u));
             const decoded_t got = decode_all(&decoder, damaged, size);
             TEST_ASSERT_EQUAL_UINT(0, got.good);
             TEST_ASSERT_TRUE(got.bad >= 1u);
