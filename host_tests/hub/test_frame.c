@@ -141,7 +141,7 @@ static void any_single_and_double_bit_flip_is_found(void)
             uint8_t damaged[FRAME_WIRE_MAX];
             memcpy(damaged, wire, size);
             damaged[first / 8u] ^= (uint8_t)(1u << (first % 8u));
-            damaged[second / 8u] ^= (second == first) ? 0 : (uint8_t)(1u << (second % 8u));
+            damaged[second / 8u] ^= (uint8_t)((second == first) ? 0u : 1u << (second % 8u));
             const decoded_t got = decode_all(&decoder, damaged, size);
             TEST_ASSERT_EQUAL_UINT(0, got.good);
             TEST_ASSERT_TRUE(got.bad >= 1u);
@@ -244,14 +244,14 @@ static void an_estimate_comes_back_as_it_was(void)
     TEST_ASSERT_TRUE(message_read_estimate(&frame, &in));
     TEST_ASSERT_EQUAL_UINT8(out.events, in.events);
     TEST_ASSERT_EQUAL_UINT32(out.token, in.token);
-    TEST_ASSERT_EQUAL_UINT64(out.now_us, in.now_us);
+    TEST_ASSERT_TRUE(out.now_us == in.now_us); /* Unity has no 64 bits on targets */
     TEST_ASSERT_EQUAL_MEMORY(&out.result.axis1, &in.result.axis1, sizeof out.result.axis1);
     TEST_ASSERT_EQUAL_MEMORY(&out.result.axis2, &in.result.axis2, sizeof out.result.axis2);
     TEST_ASSERT_EQUAL_INT(out.result.status, in.result.status);
     TEST_ASSERT_EQUAL_INT(out.result.reason, in.result.reason);
     TEST_ASSERT_EQUAL_FLOAT(out.result.sign_margin, in.result.sign_margin);
     TEST_ASSERT_EQUAL_FLOAT(out.result.progress_sign, in.result.progress_sign);
-    TEST_ASSERT_EQUAL_UINT64(out.result.t_us, in.result.t_us);
+    TEST_ASSERT_TRUE(out.result.t_us == in.result.t_us); /* Unity has no 64 bits on targets */
     TEST_ASSERT_EQUAL_UINT32(7, in.result.rejected);
     for (size_t size = 0; size < payload.size; size++) { /* shorter is no estimate */
         const frame_t part = {.payload = payload.bytes, .size = size};

@@ -206,7 +206,7 @@ static void nothing_is_said_or_counted_before_a_start(void)
     work();
     TEST_ASSERT_EQUAL_UINT(1, seen.estimates);
     TEST_ASSERT_EQUAL_UINT32(2, seen.counters.link.received);
-    TEST_ASSERT_EQUAL_UINT64(MESSAGE_TIME_UNKNOWN, seen.estimate.now_us);
+    TEST_ASSERT_TRUE(MESSAGE_TIME_UNKNOWN == seen.estimate.now_us); /* Unity has no 64 bits on targets */
 }
 
 static void a_new_nonce_begins_anew_and_the_old_one_does_not(void)
@@ -310,7 +310,7 @@ static void estimates_come_by_sample_time(void)
         work();
         TEST_ASSERT_EQUAL_UINT(k / 50u, seen.counters_seen);
     }
-    TEST_ASSERT_EQUAL_UINT64(4000000, seen.estimate.now_us);
+    TEST_ASSERT_TRUE(4000000 == seen.estimate.now_us); /* Unity has no 64 bits on targets */
 }
 
 /* Nobody takes the answers: the hub waits, and loses none of them. */
