@@ -5,7 +5,8 @@
  * a file of the host, by semihosting. Equal hashes mean equal bits of every field of every result. The functions
  * replay_mark_* tell tools/budget.py's instruction counter where a call begins and ends.
  *
- * Compile definitions: REPLAY_WINDOW (window engine, N_max 125), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
+ * Compile definitions: REPLAY_WINDOW (window engine, N_max 125), REPLAY_SIXTEEN (sixteen stream engines, one call is the
+ * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
  * the stack before every call and print how deep the deepest one went). */
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_window.h"
@@ -23,7 +24,7 @@ typedef char pair_has_no_padding[(sizeof(jcal_pair_t) == 56) ? 1 : -1];
 static jcal_pair_t chunk[CHUNK];
 
 #ifdef REPLAY_WINDOW
-static jcal_hinge_window_t engine;
+static jcal_hinge_window_t replayed;
 static float storage[JCAL_HINGE_WINDOW_STORAGE_BYTES(N_MAX, 21) / sizeof(float) + 1u];
 #define engine_push jcal_hinge_window_push
 #define engine_step jcal_hinge_window_step
@@ -34,19 +35,38 @@ static jcal_status_t engine_init(void)
 {
     jcal_hinge_window_config_t config = jcal_hinge_window_config_default();
     config.n_max = N_MAX;
-    return jcal_hinge_window_init(&engine, &config, storage, sizeof(storage));
+    return jcal_hinge_window_init(&replayed, &config, storage, sizeof(storage));
 }
 #else
-static jcal_hinge_t engine;
+#ifdef REPLAY_SIXTEEN
+enum { INSTANCES = 16 };
+#else
+enum { INSTANCES = 1 };
+#endif
+static jcal_hinge_t engines[INSTANCES];
+#define replayed engines[INSTANCES - 1]
 #define engine_push jcal_hinge_push
 #define engine_step jcal_hinge_step
-#define engine_update jcal_hinge_update
 #define engine_get jcal_hinge_get
+
+#ifndef REPLAY_SPLIT
+static void engine_update(const jcal_hinge_t *last, const jcal_pair_t *pair)
+{
+    (void)last;
+    for (int k = 0; k < INSTANCES; ++k) {
+        (void)jcal_hinge_update(&engines[k], pair);
+    }
+}
+#endif
 
 static jcal_status_t engine_init(void)
 {
     const jcal_hinge_config_t config = jcal_hinge_config_default();
-    return jcal_hinge_init(&engine, &config);
+    jcal_status_t status = JCAL_OK;
+    for (int k = 0; (k < INSTANCES) && (status == JCAL_OK); ++k) {
+        status = jcal_hinge_init(&engines[k], &config);
+    }
+    return status;
 }
 #endif
 
@@ -78,14 +98,14 @@ static __attribute__((noinline)) void call_engine(const jcal_pair_t *pair)
 {
 #ifdef REPLAY_SPLIT
     replay_mark_push();
-    (void)engine_push(&engine, pair);
+    (void)engine_push(&replayed, pair);
     replay_mark_end();
     replay_mark_step();
-    (void)engine_step(&engine);
+    (void)engine_step(&replayed);
     replay_mark_end();
 #else
     replay_mark_update();
-    (void)engine_update(&engine, pair);
+    (void)engine_update(&replayed, pair);
     replay_mark_end();
 #endif
 }
@@ -170,13 +190,13 @@ int main(void)
         for (size_t k = 0; k < count; ++k) {
             const uint32_t deep = call_and_measure(&chunk[k]);
             stack = (deep > stack) ? deep : stack;
-            (void)engine_get(&engine, &result);
+            (void)engine_get(&replayed, &result);
             hash = hash_result(hash, &result);
             ++samples;
         }
     }
     (void)fclose(file);
     printf("samples %lu hash %08lx%08lx state %lu stack %lu\n", (unsigned long)samples, (unsigned long)(hash >> 32),
-           (unsigned long)(hash & 0xFFFFFFFFu), (unsigned long)sizeof(engine), (unsigned long)stack);
+           (unsigned long)(hash & 0xFFFFFFFFu), (unsigned long)sizeof(replayed), (unsigned long)stack);
     return (samples > 0) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -12,10 +12,10 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
 PORT = ROOT / "port/cortex_m"
-WORK = ROOT / "build/target"
+WORK = ROOT / "build/target" / Path(sys.argv[0]).stem  # one per script, so that two may run at once
 COLUMNS = [f"{kind}{imu}_{axis}" for imu in "12" for kind in ("gyr", "acc") for axis in "xyz"]
-# As tools/cmake/flags.cmake.
-FLAGS = ["-std=c99", "-ffp-contract=off", "-fno-math-errno", "-ffunction-sections", "-fdata-sections", "-Wall", "-Wextra"]
+# For programs only: the library is built by CMake, which alone knows its flags.
+PROGRAM_FLAGS = ["-std=c99", "-Wall", "-Wextra", "-O2", "-DNDEBUG", "-ffunction-sections", "-fdata-sections"]
 QEMU_SECONDS = 300
 
 
@@ -29,21 +29,37 @@ class Platform:
     ram: int = 0x20000000
 
 
-M4F = ("-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16")
-M3 = ("-mcpu=cortex-m3", "-mthumb", "-mfloat-abi=soft")
-PLATFORMS = {p.name: p for p in (Platform("host", ()), Platform("m4f", M4F, "mps2-an386"),
-                                 Platform("m3", M3, "mps2-an385"))}
+def from_toolchain_file(name: str) -> Platform:
+    values = dict(re.findall(r'set\(JOINTCAL_(\w+) "?([^")]*)"?\)', (PORT / f"{name}.cmake").read_text()))
+    return Platform(name, tuple(values["CPU_FLAGS"].split()), values["QEMU_MACHINE"], int(values["FLASH"], 16),
+                    int(values["RAM"], 16))
 
 
-def samples_file(recording: Path) -> Path:
-    """The recording's samples as jcal_pair_t, in a folder of its own as samples.bin."""
-    folder = WORK / "samples" / recording.stem
+PLATFORMS = {"host": Platform("host", ()), "m4f": from_toolchain_file("m4f"), "m3": from_toolchain_file("m3")}
+
+
+def resampled(rows: list[list[float]], rate_hz: float, seconds: float) -> list[list[float]]:
+    """The beginning of a recording, interpolated linearly at this rate. First column: time, s."""
+    found, k = [], 0
+    for n in range(int(rate_hz * min(seconds, rows[-1][0] - rows[0][0]))):
+        t = rows[0][0] + n / rate_hz
+        while rows[k + 1][0] < t:
+            k += 1
+        share = (t - rows[k][0]) / (rows[k + 1][0] - rows[k][0])
+        found.append([t, *(x + share * (y - x) for x, y in zip(rows[k][1:], rows[k + 1][1:]))])
+    return found
+
+
+def samples_file(recording: Path, rate_hz: float | None = None, seconds: float = 60.0) -> Path:
+    """The recording's samples as jcal_pair_t, in a folder of its own as samples.bin; with a rate, its beginning only."""
+    folder = WORK / "samples" / (recording.stem + (f"_{rate_hz:g}hz" if rate_hz else ""))
     folder.mkdir(parents=True, exist_ok=True)
+    with open(recording, newline="", encoding="utf-8") as lines:
+        rows = [[float(row["t_s"])] + [float(row[column]) if row[column] else float("nan") for column in COLUMNS]
+                for row in csv.DictReader(line for line in lines if not line.startswith("#"))]
+    rows = resampled(rows, rate_hz, seconds) if rate_hz else rows
     part = folder / f"samples.{os.getpid()}"  # renamed when complete: another run may be reading
-    with open(recording, newline="", encoding="utf-8") as lines, open(part, "wb") as binary:
-        for row in csv.DictReader(line for line in lines if not line.startswith("#")):
-            values = [float(row[column]) if row[column] else float("nan") for column in COLUMNS]
-            binary.write(struct.pack("<Q12f", round(float(row["t_s"]) * 1e6), *values))
+    part.write_bytes(b"".join(struct.pack("<Q12f", round(row[0] * 1e6), *row[1:]) for row in rows))
     return part.replace(folder / "samples.bin")
 
 
@@ -56,30 +72,27 @@ def recordings(names: list[str]) -> list[Path]:
     return found or [ROOT / "tools/demo/hinge_demo.csv"]
 
 
-def library_sources() -> list[Path]:
-    return sorted((ROOT / "lib").rglob("*.c"))
-
-
 def compile_objects(platform: Platform, level: str, extra: tuple[str, ...] = ()) -> list[Path]:
-    """The library's objects at this level of optimization, one per source."""
+    """The library's objects at this level of optimization, one per source, built by CMake as any consumer's would be."""
     folder = WORK / platform.name / (level.strip("-") + "".join(extra))
-    folder.mkdir(parents=True, exist_ok=True)
-    compiler = "arm-none-eabi-gcc" if platform.cpu else "cc"
-    specs = ["--specs=picolibc.specs"] if platform.cpu else []
-    objects = []
-    for source in library_sources():
-        target = folder / ("_".join(source.relative_to(ROOT / "lib").parts)[:-2] + ".o")
-        subprocess.run([compiler, *specs, *platform.cpu, *FLAGS, level, "-DNDEBUG", *extra, f"-I{ROOT}/include", f"-I{ROOT}/lib",
-                        "-c", source, "-o", target], check=True)
-        objects.append(target)
-    return objects
+    toolchain = [f"-DCMAKE_TOOLCHAIN_FILE={PORT / platform.name}.cmake"] if platform.cpu else []
+    for command in (["cmake", "-S", ROOT, "-B", folder, *toolchain, "-DCMAKE_BUILD_TYPE=Release",
+                     f"-DCMAKE_C_FLAGS_RELEASE={' '.join((level, '-DNDEBUG', *extra))}", "-DJOINTCAL_WERROR=ON",
+                     "-DJOINTCAL_BUILD_TESTS=OFF", "-DJOINTCAL_BUILD_PROGRAM=OFF"],
+                    ["cmake", "--build", folder, "--parallel", "2"]):
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        if done.returncode != 0:
+            raise RuntimeError(done.stdout)
+    sources = sorted(str(source.relative_to(ROOT)) for source in (ROOT / "lib").rglob("*.c"))
+    found = [folder / f"CMakeFiles/jointcal.dir/{source}" for source in sources]
+    return [next(o for suffix in (".o", ".obj") if (o := source.with_name(source.name + suffix)).exists()) for source in found]
 
 
-def build(platform: Platform, name: str, definitions: tuple[str, ...] = (), level: str = "-O2") -> Path:
-    """The replay program."""
-    objects = compile_objects(platform, level)
+def build(platform: Platform, name: str, definitions: tuple[str, ...] = (), source: str = "replay.c") -> Path:
+    """A program of port/cortex_m, by default the replay, linked with the library at -O2."""
+    objects = compile_objects(platform, "-O2")
     image = WORK / platform.name / f"{name}.elf"
-    common = [*FLAGS, level, "-DNDEBUG", *[f"-D{d}" for d in definitions], f"-I{ROOT}/include", PORT / "replay.c"]
+    common = [*PROGRAM_FLAGS, *[f"-D{d}" for d in definitions], f"-I{ROOT}/include", PORT / source]
     if platform.cpu:
         symbols = {"flash": platform.flash, "flash_size": 0x400000, "ram": platform.ram, "ram_size": 0x400000,
                    "stack_size": 0x4000}
