@@ -213,11 +213,9 @@ static void the_history_has_an_end(void)
     }
 }
 
-static void an_estimate_comes_back_as_it_was(void)
+/* Every field has a value of its own. */
+static void fill_result(jcal_hinge_result_t *result)
 {
-    message_estimate_t out = {.events = 5, .token = 77, .now_us = UINT64_C(1) << 62};
-    message_estimate_t in;
-    jcal_hinge_result_t *result = &out.result;
     result->status = JCAL_READY;
     result->weak = JCAL_WEAK_SIGN;
     result->hint = JCAL_HINT_TILT_AXIS;
@@ -236,6 +234,13 @@ static void an_estimate_comes_back_as_it_was(void)
     result->rejected_by[JCAL_REJECT_GAP] = 3;
     result->rejected_by[JCAL_REJECT_NOT_FINITE] = 4;
     result->rejected = 7;
+}
+
+static void an_estimate_comes_back_as_it_was(void)
+{
+    message_estimate_t out = {.events = 5, .token = 77, .now_us = UINT64_C(1) << 62};
+    message_estimate_t in;
+    fill_result(&out.result);
     frame_writer_t payload;
     message_write_estimate(&payload, &out);
     TEST_ASSERT_TRUE(payload.ok);
