@@ -13,8 +13,10 @@
 #include "jointcal/gate.h"
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_window.h"
+#include "jointcal/orientation.h"
 #include "jointcal/quat.h"
 #include "jointcal/status.h"
+#include "jointcal/two_dof.h"
 #include "jointcal/types.h"
 #include "jointcal/vec3.h"
 

@@ -42,9 +42,10 @@ typedef enum {
 /// The unknown that is known worst.
 typedef enum {
     JCAL_WEAK_NONE = 0,
-    JCAL_WEAK_AXIS1 = 1,  ///< Axis in sensor frame 1.
-    JCAL_WEAK_AXIS2 = 2,  ///< Axis in sensor frame 2.
-    JCAL_WEAK_SIGN = 3    ///< Sign pairing of the two axes.
+    JCAL_WEAK_AXIS1 = 1,   ///< Axis in sensor frame 1.
+    JCAL_WEAK_AXIS2 = 2,   ///< Axis in sensor frame 2.
+    JCAL_WEAK_SIGN = 3,    ///< Sign pairing of the two axes.
+    JCAL_WEAK_HEADING = 4  ///< Heading offset of the two orientations.
 } jcal_weak_t;
 
 /// The motion that would help most.
@@ -61,13 +62,14 @@ typedef enum {
 /// Why the status is not `ready`.
 typedef enum {
     JCAL_REASON_NONE = 0,
-    JCAL_REASON_NO_DATA = 1,          ///< Too few accepted samples yet.
-    JCAL_REASON_NO_MOTION = 2,        ///< The segments hardly turn against each other.
-    JCAL_REASON_UNCERTAIN = 3,        ///< A bound is above its limit.
-    JCAL_REASON_SIGN_OPEN = 4,        ///< Both sign pairings explain the data about equally.
-    JCAL_REASON_OTHER_MINIMUM = 5,    ///< Other axes explain the data about equally well.
-    JCAL_REASON_DOES_NOT_FIT = 6,     ///< No hinge explains the data: other joint, or sensors that share none.
-    JCAL_REASON_BAD_SAMPLES = 7,      ///< Too many samples are rejected (saturated, frozen, repeated ...).
+    JCAL_REASON_NO_DATA = 1,        ///< Too few accepted samples yet.
+    JCAL_REASON_NO_MOTION = 2,      ///< The segments hardly turn against each other.
+    JCAL_REASON_UNCERTAIN = 3,      ///< A bound is above its limit.
+    JCAL_REASON_SIGN_OPEN = 4,      ///< Both sign pairings explain the data about equally.
+    JCAL_REASON_OTHER_MINIMUM = 5,  ///< Other axes explain the data about equally well.
+    JCAL_REASON_DOES_NOT_FIT =
+        6,                        ///< No joint of this kind explains the data: other joint, or sensors that share none.
+    JCAL_REASON_BAD_SAMPLES = 7,  ///< Too many samples are rejected (saturated, frozen, repeated ...).
     JCAL_REASON_WRONG_UNITS_GYR = 8,  ///< Angular rates look like deg/s.
     JCAL_REASON_WRONG_UNITS_ACC = 9   ///< Accelerations look like g.
 } jcal_reason_t;
@@ -78,7 +80,7 @@ const char *jcal_status_string(jcal_status_t status);
 const char *jcal_calibration_string(jcal_calibration_t calibration);
 /// `stream` or `window`; never null. Threads: no state.
 const char *jcal_engine_string(jcal_engine_t engine);
-/// `axis1`, `axis2`, `sign`; null for JCAL_WEAK_NONE. Threads: no state.
+/// `axis1`, `axis2`, `sign`, `heading`; null for JCAL_WEAK_NONE. Threads: no state.
 const char *jcal_weak_string(jcal_weak_t weak);
 /// `move_joint`, ...; null for JCAL_HINT_NONE. Threads: no state.
 const char *jcal_hint_string(jcal_hint_t hint);

@@ -56,7 +56,7 @@ const char *jcal_engine_string(jcal_engine_t engine)
 
 const char *jcal_weak_string(jcal_weak_t weak)
 {
-    static const char *const words[] = {NULL, "axis1", "axis2", "sign"};
+    static const char *const words[] = {NULL, "axis1", "axis2", "sign", "heading"};
     return word(words, COUNT(words), (int)weak, NULL);
 }
 

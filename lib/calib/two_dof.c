@@ -1,0 +1,322 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Stream engine of the 2-DoF joint: config, orientations into rates, samples into sums, and the schedule of the work.
+#include "jointcal/two_dof.h"
+
+#include "calib/two_dof_model.h"
+#include "calib/two_dof_residual.h"
+#include "calib/two_dof_search.h"
+#include "jointcal/quat.h"
+#include "math/angle.h"
+#include "math/scalar.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#define MICROSECONDS 1e-6f
+
+/// Orientations are kept this far apart, us: rates come from every other one, so this sets their low-pass, a mean over 80 ms (the
+/// first zero of its response lies at 12.5 Hz, -3 dB at 5.5 Hz) that has no delay against the orientation in the middle.
+#define KEEP_US 38000u
+/// Two kept orientations further apart than this have no rate between them, s.
+#define APART_MAX_S 0.12f
+
+/// Squared rates at which a sample counts half: rest tells nothing, (rad/s)^2.
+#define REST_RATE2 0.25f
+
+/// Items of work for one kept sample: both kinds of moments, then slices of the search.
+#define ITEM_ROTATION 0u
+#define ITEM_ORIENTATION 1u
+#define ITEMS 4u
+#define ITEMS_READY 3u
+
+typedef char jcal_two_dof_fits_its_budget[(sizeof(jcal_two_dof_t) <= 4096u) ? 1 : -1];
+
+jcal_two_dof_config_t jcal_two_dof_config_default(void)
+{
+    const jcal_two_dof_config_t config = {
+        .gate = jcal_gate_config_default(),
+        .constraint = JCAL_CONSTRAINT_COMBINED,
+        .max_bound_rad = 3.0f * JCAL_RAD_PER_DEG,
+        .mismatch_rad = 0.3f * JCAL_RAD_PER_DEG,
+        .rate_noise_rad_s = 0.02f,
+        .rate_error = 0.02f,
+        .angle_noise_rad = 0.013f,
+        .heading_drift_rad_s = 3.0f * JCAL_RAD_PER_DEG / 60.0f,
+        .memory_s = 10.0f,
+    };
+    return config;
+}
+
+typedef struct {
+    const char *name;
+    float value, low, high;
+} field_t;
+
+const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config)
+{
+    const field_t fields[] = {
+        {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
+        {"mismatch_rad", config->mismatch_rad, 0.0f, 0.1f},
+        {"rate_noise_rad_s", config->rate_noise_rad_s, 1e-3f, 1.0f},
+        {"rate_error", config->rate_error, 0.0f, 0.5f},
+        {"angle_noise_rad", config->angle_noise_rad, 1e-3f, 0.5f},
+        {"heading_drift_rad_s", config->heading_drift_rad_s, 0.0f, 0.05f},
+        {"memory_s", config->memory_s, 2.0f, 600.0f},
+    };
+    for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
+        if (!jcal_within(fields[i].value, fields[i].low, fields[i].high)) {
+            return fields[i].name;
+        }
+    }
+    const int constraint = (int)config->constraint;
+    if ((constraint < (int)JCAL_CONSTRAINT_COMBINED) || (constraint > (int)JCAL_CONSTRAINT_ORIENTATION)) {
+        return "constraint";
+    }
+    return jcal_gate_config_check(&config->gate);
+}
+
+jcal_status_t jcal_two_dof_init(jcal_two_dof_t *self, const jcal_two_dof_config_t *config)
+{
+    if ((self == NULL) || (config == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_two_dof_config_check(config) != NULL) {
+        return JCAL_ERR_CONFIG;
+    }
+    const jcal_two_dof_config_t cfg = *config; /* the caller may hand over self->cfg */
+    (void)memset(self, 0, sizeof *self);
+    self->cfg = cfg;
+    self->share = ITEMS;
+    self->item = ITEMS;
+    self->verdict.bound1_rad = JCAL_HALF_PI;
+    self->verdict.bound2_rad = JCAL_HALF_PI;
+    self->verdict.bound_heading_rad = JCAL_HALF_PI;
+    self->verdict.excess = 1.0f;
+    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
+    self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+    self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_two_dof_reset(jcal_two_dof_t *self)
+{
+    return (self == NULL) ? JCAL_ERR_ARG : jcal_two_dof_init(self, &self->cfg);
+}
+
+jcal_status_t jcal_two_dof_push(jcal_two_dof_t *self, const jcal_orientation_pair_t *pair)
+{
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    const uint32_t at = self->written;
+    if (at != self->taken) {
+        return JCAL_ERR_FULL; /* the three before it are still needed */
+    }
+    if (jcal_orientation_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
+        return JCAL_REJECTED;
+    }
+    self->pushes = (uint8_t)((self->pushes < UINT8_MAX) ? (self->pushes + 1u) : UINT8_MAX);
+    if ((at > 0u) && ((pair->t_us - self->ring[(at - 1u) % JCAL_TWO_DOF_RING].t_us) < KEEP_US)) {
+        return JCAL_OK;
+    }
+    jcal_orientation_pair_t *const slot = &self->ring[at % JCAL_TWO_DOF_RING];
+    slot->t_us = pair->t_us;
+    slot->q1 = jcal_quat_normalise(pair->q1);
+    slot->q2 = jcal_quat_normalise(pair->q2);
+    self->written = at + 1u;
+    return JCAL_OK;
+}
+
+/// The kept orientation `back` before the last one taken.
+static const jcal_orientation_pair_t *kept(const jcal_two_dof_t *self, uint32_t back)
+{
+    return &self->ring[(self->taken - 1u - back) % JCAL_TWO_DOF_RING];
+}
+
+/// Mean rate in the earth frame between two orientations, rad/s: (A41), (A42) of [LAI22], without the arc cosine that loses small
+/// angles.
+static jcal_vec3_t rate_between(jcal_quat_t from, jcal_quat_t to, float dt_s)
+{
+    const jcal_quat_t turn = jcal_quat_mul(to, jcal_quat_conj(from));
+    const float sign = (turn.w < 0.0f) ? -1.0f : 1.0f;
+    const jcal_vec3_t v = jcal_vec3(sign * turn.x, sign * turn.y, sign * turn.z);
+    const float sine = jcal_vec3_norm(v);
+    const float per_sine = (sine > 1e-4f) ? (2.0f * jcal_atan2(sine, sign * turn.w) / sine) : 2.0f;
+    return jcal_vec3_scale(v, per_sine / dt_s);
+}
+
+/// The sample in the middle of the last three kept; false if there is none. `dt_s` is the time it stands for.
+static bool middle(const jcal_two_dof_t *self, jcal_two_dof_sample_t *sample, float *dt_s)
+{
+    if (self->taken < 3u) {
+        return false;
+    }
+    const jcal_orientation_pair_t *const before = kept(self, 2u);
+    const jcal_orientation_pair_t *const at = kept(self, 1u);
+    const jcal_orientation_pair_t *const after = kept(self, 0u);
+    const float to_s = (float)(at->t_us - before->t_us) * MICROSECONDS;
+    const float on_s = (float)(after->t_us - at->t_us) * MICROSECONDS;
+    if ((to_s > APART_MAX_S) || (on_s > APART_MAX_S)) {
+        return false;
+    }
+    *dt_s = 0.5f * (to_s + on_s);
+    sample->q1 = at->q1;
+    sample->q2 = at->q2;
+    sample->w1 = rate_between(before->q1, after->q1, to_s + on_s);
+    sample->w2 = rate_between(before->q2, after->q2, to_s + on_s);
+    return true;
+}
+
+static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float rate2, float time_s)
+{
+    const jcal_two_dof_config_t *const cfg = &self->cfg;
+    const float variance =
+        (cfg->rate_noise_rad_s * cfg->rate_noise_rad_s) + (cfg->rate_error * cfg->rate_error * rate2);
+    float features[JCAL_TWO_DOF_FEATURES];
+    jcal_two_dof_rotation_features(sample, features);
+    jcal_two_dof_add(self->moments.rotation, features, time_s / (JCAL_TWO_DOF_RATE_TIME_S * variance));
+}
+
+static void add_orientation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float time_s)
+{
+    const jcal_two_dof_config_t *const cfg = &self->cfg;
+    const float weight = time_s / (JCAL_TWO_DOF_ANGLE_TIME_S * cfg->angle_noise_rad * cfg->angle_noise_rad);
+    float features[JCAL_TWO_DOF_FEATURES];
+    jcal_two_dof_orientation_features(sample, features);
+    jcal_two_dof_add(self->moments.orientation, features, weight);
+    for (size_t i = 0u; i < JCAL_TWO_DOF_FEATURES; ++i) {
+        self->moments.mean[i] += weight * features[i];
+    }
+    self->moments.weight += weight;
+}
+
+/// Moments of the sample last taken, of one kind.
+static void sum_up(jcal_two_dof_t *self, unsigned item)
+{
+    jcal_two_dof_sample_t sample;
+    float dt_s;
+    if (!middle(self, &sample, &dt_s)) {
+        return;
+    }
+    const float rate2 = jcal_vec3_dot(sample.w1, sample.w1) + jcal_vec3_dot(sample.w2, sample.w2);
+    const float time_s = dt_s * (rate2 / (rate2 + REST_RATE2));
+    if (item == ITEM_ROTATION) {
+        add_rotation(self, &sample, rate2, time_s);
+    } else {
+        add_orientation(self, &sample, time_s);
+        self->age_s = (self->age_s + dt_s) * (self->moving_s / (self->moving_s + time_s + 1e-9f));
+        self->moving_s += time_s;
+        self->since_forgot_s += dt_s;
+        self->t_us = kept(self, 1u)->t_us;
+    }
+}
+
+static unsigned items_of(const jcal_two_dof_t *self)
+{
+    return (self->verdict.status == (uint8_t)JCAL_READY) ? ITEMS_READY : ITEMS;
+}
+
+static void do_item(jcal_two_dof_t *self)
+{
+    if (self->item <= ITEM_ORIENTATION) {
+        sum_up(self, self->item);
+    } else {
+        jcal_two_dof_work(self);
+    }
+    self->item = (uint8_t)(self->item + 1u);
+}
+
+/// Takes the waiting orientation. Moments of the one before it that are still to be summed are summed first.
+static void take(jcal_two_dof_t *self)
+{
+    while (self->item <= ITEM_ORIENTATION) {
+        do_item(self);
+    }
+    const unsigned pushes = (self->pushes > 0u) ? self->pushes : 1u;
+    self->share = (uint8_t)((ITEMS + pushes - 1u) / pushes);
+    self->pushes = 0u;
+    self->taken = self->taken + 1u;
+    self->item = 0u;
+}
+
+jcal_status_t jcal_two_dof_step(jcal_two_dof_t *self)
+{
+    if (self == NULL) {
+        return JCAL_ERR_ARG;
+    }
+    if (self->written != self->taken) {
+        take(self);
+    } else if (self->item >= items_of(self)) {
+        return JCAL_IDLE;
+    } else {
+        /* go on with the last one */
+    }
+    for (unsigned i = 0u; (i < self->share) && (self->item < items_of(self)); ++i) {
+        do_item(self);
+    }
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_two_dof_update(jcal_two_dof_t *self, const jcal_orientation_pair_t *pair)
+{
+    const jcal_status_t status = jcal_two_dof_push(self, pair);
+    if (status >= JCAL_OK) {
+        (void)jcal_two_dof_step(self);
+    }
+    return status;
+}
+
+static float progress(float bound_rad, float max_bound_rad)
+{
+    return (bound_rad > 0.0f) ? jcal_min(max_bound_rad / bound_rad, 1.0f) : 1.0f;
+}
+
+static float largest_component(jcal_vec3_t v)
+{
+    const float xy = (fabsf(v.x) >= fabsf(v.y)) ? v.x : v.y;
+    return (fabsf(xy) >= fabsf(v.z)) ? xy : v.z;
+}
+
+static void put_estimate(const jcal_two_dof_t *self, jcal_two_dof_result_t *out)
+{
+    const jcal_two_dof_point_t *const point = &self->best.point;
+    const float sign1 = (largest_component(point->j1) < 0.0f) ? -1.0f : 1.0f;
+    const float sign2 = (largest_component(point->j2) < 0.0f) ? -1.0f : 1.0f;
+    out->axis1 = jcal_vec3_scale(point->j1, sign1);
+    out->axis2 = jcal_vec3_scale(point->j2, sign2);
+    out->heading_offset_rad = jcal_atan2(point->heading.im, point->heading.re);
+    out->carrying_angle_rad = sign1 * sign2 * self->verdict.carrying_rad;
+}
+
+jcal_status_t jcal_two_dof_get(const jcal_two_dof_t *self, jcal_two_dof_result_t *out)
+{
+    if ((self == NULL) || (out == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    const jcal_two_dof_verdict_t *const verdict = &self->verdict;
+    const float limit = self->cfg.max_bound_rad;
+    *out = (jcal_two_dof_result_t){0};
+    out->engine = JCAL_ENGINE_STREAM;
+    out->status = (jcal_calibration_t)verdict->status;
+    out->weak = (jcal_weak_t)verdict->weak;
+    out->hint = (jcal_hint_t)verdict->hint;
+    out->reason = (jcal_reason_t)verdict->reason;
+    out->has_axes = self->has_best;
+    out->uncertainty1_rad = verdict->bound1_rad;
+    out->uncertainty2_rad = verdict->bound2_rad;
+    out->uncertainty_heading_rad = verdict->bound_heading_rad;
+    out->progress_axis1 = self->has_best ? progress(verdict->bound1_rad, limit) : 0.0f;
+    out->progress_axis2 = self->has_best ? progress(verdict->bound2_rad, limit) : 0.0f;
+    out->progress_heading = self->has_best ? progress(verdict->bound_heading_rad, limit) : 0.0f;
+    out->t_us = self->t_us;
+    out->samples = self->gate.samples;
+    for (size_t i = 0u; i < (size_t)JCAL_REJECT_COUNT; ++i) {
+        out->rejected_by[i] = self->gate.rejected_by[i];
+        out->rejected += out->rejected_by[i];
+    }
+    if (self->has_best) {
+        put_estimate(self, out);
+    }
+    return JCAL_OK;
+}

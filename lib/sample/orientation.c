@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Checks of single pairs of orientations. See orientation.h.
+#include "jointcal/orientation.h"
+
+#include "math/scalar.h"
+
+#define MICROSECONDS 1e-6f
+
+/// Square of the length of a quaternion, least and most: 1 -+ 0.05 in length.
+#define LENGTH2_MIN 0.9025f
+#define LENGTH2_MAX 1.1025f
+
+/// As in gate.c: time over which bad samples are counted, s, for samples that are this far apart.
+#define BAD_STEP 0.02f
+
+static float length2(jcal_quat_t q)
+{
+    return (q.w * q.w) + (q.x * q.x) + (q.y * q.y) + (q.z * q.z);
+}
+
+static bool same(jcal_quat_t a, jcal_quat_t b)
+{
+    return (a.w == b.w) && (a.x == b.x) && (a.y == b.y) && (a.z == b.z);
+}
+
+/* A sensor that keeps still turns a little all the time, if only by noise: equal bits mean that no new value came. */
+static float still(float still_s, bool same_bits, float dt_s)
+{
+    return same_bits ? (still_s + dt_s) : 0.0f;
+}
+
+static jcal_reject_t verdict(jcal_orientation_gate_t *self, const jcal_gate_config_t *config,
+                             const jcal_orientation_pair_t *pair)
+{
+    const float square1 = length2(pair->q1);
+    const float square2 = length2(pair->q2);
+    if (!((square1 - square1) == 0.0f) || !((square2 - square2) == 0.0f)) {
+        return JCAL_REJECT_NOT_FINITE;
+    }
+    if (self->has_last && (pair->t_us <= self->last.t_us)) {
+        return JCAL_REJECT_TIME_ORDER;
+    }
+    if (!jcal_within(square1, LENGTH2_MIN, LENGTH2_MAX) || !jcal_within(square2, LENGTH2_MIN, LENGTH2_MAX)) {
+        return JCAL_REJECT_OUT_OF_RANGE;
+    }
+    if (!self->has_last) {
+        self->last = *pair;
+        self->has_last = true;
+        return JCAL_REJECT_NONE;
+    }
+    const float dt_s = (float)(pair->t_us - self->last.t_us) * MICROSECONDS;
+    self->still1_s = still(self->still1_s, same(pair->q1, self->last.q1), dt_s);
+    self->still2_s = still(self->still2_s, same(pair->q2, self->last.q2), dt_s);
+    self->last = *pair;
+    if ((self->still1_s > config->frozen_s) || (self->still2_s > config->frozen_s)) {
+        return JCAL_REJECT_FROZEN;
+    }
+    if ((self->still1_s > 0.0f) || (self->still2_s > 0.0f)) {
+        return JCAL_REJECT_REPEATED;
+    }
+    return (dt_s > config->gap_s) ? JCAL_REJECT_GAP : JCAL_REJECT_NONE;
+}
+
+jcal_reject_t jcal_orientation_gate_check(jcal_orientation_gate_t *self, const jcal_gate_config_t *config,
+                                          const jcal_orientation_pair_t *pair)
+{
+    const jcal_reject_t outcome = verdict(self, config, pair);
+    self->samples += 1u;
+    if (outcome != JCAL_REJECT_NONE) {
+        self->rejected_by[outcome] += 1u;
+    }
+    const float bad = ((outcome == JCAL_REJECT_NONE) || (outcome == JCAL_REJECT_GAP)) ? 0.0f : 1.0f;
+    self->bad_share += BAD_STEP * (bad - self->bad_share);
+    return outcome;
+}
