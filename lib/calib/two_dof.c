@@ -175,7 +175,8 @@ static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *samp
         (cfg->rate_noise_rad_s * cfg->rate_noise_rad_s) + (cfg->rate_error * cfg->rate_error * rate2);
     float features[JCAL_TWO_DOF_FEATURES];
     jcal_two_dof_rotation_features(sample, features);
-    jcal_two_dof_add(self->moments.rotation, features, time_s / (JCAL_TWO_DOF_RATE_TIME_S * variance));
+    const float weight = time_s / (JCAL_TWO_DOF_RATE_TIME_S * variance);
+    jcal_two_dof_add(self->moments.rotation, features, weight);
 }
 
 static void add_orientation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float time_s)

@@ -21,6 +21,8 @@
 
 /// Residuals may be this many times what is usual, squared, before no joint of this kind explains the data.
 #define MISFIT_MAX 12.0f
+/// Largest |sin(beta0)|, 60 deg: axes that are more alike have no common normal to speak of, and parallel ones explain a hinge.
+#define SINE_MAX 0.866f
 /// The other minimum must cost this much more, in units of the variance.
 #define RIVAL_GAP 30.0f
 /// Probes that must have ended, and judgements in a row that found nothing missing.
@@ -114,7 +116,7 @@ static jcal_weak_t weakest(const bounds_t *bounds, float limit)
 }
 
 /// What is missing; JCAL_COLLECTING with reason NONE stands for nothing.
-static jcal_calibration_t missing(jcal_two_dof_t *self, const bounds_t *bounds, float misfit)
+static jcal_calibration_t missing(jcal_two_dof_t *self, const bounds_t *bounds, float misfit, float sine)
 {
     jcal_two_dof_verdict_t *const verdict = &self->verdict;
     const jcal_two_dof_search_t *const search = &self->search;
@@ -129,7 +131,7 @@ static jcal_calibration_t missing(jcal_two_dof_t *self, const bounds_t *bounds, 
         say(verdict, weak, JCAL_HINT_MOVE_JOINT, JCAL_REASON_NO_MOTION);
         return JCAL_COLLECTING;
     }
-    if (misfit > MISFIT_MAX) {
+    if ((misfit > MISFIT_MAX) || (fabsf(sine) > SINE_MAX)) {
         say(verdict, weak, JCAL_HINT_CHECK_SENSORS, JCAL_REASON_DOES_NOT_FIT);
         return JCAL_COLLECTING;
     }
@@ -161,13 +163,7 @@ static void fade(jcal_two_dof_t *self)
     if (ready) {
         jcal_two_dof_prior_take(&self->prior, &self->best.point, &self->search.lin, 1.0f - FADE_KEEP);
     }
-    jcal_two_dof_moments_t *const moments = &self->moments;
-    jcal_sym_scale(moments->rotation, JCAL_TWO_DOF_FEATURES, FADE_KEEP);
-    jcal_sym_scale(moments->orientation, JCAL_TWO_DOF_FEATURES, FADE_KEEP);
-    for (unsigned i = 0u; i < JCAL_TWO_DOF_FEATURES; ++i) {
-        moments->mean[i] *= FADE_KEEP;
-    }
-    moments->weight *= FADE_KEEP;
+    jcal_two_dof_fade(&self->moments, FADE_KEEP);
     self->moving_s *= FADE_KEEP;
     self->search.cost *= FADE_KEEP;
     self->search.rival_cost *= FADE_KEEP;
@@ -184,7 +180,7 @@ void jcal_two_dof_judge(jcal_two_dof_t *self)
     verdict->bound_heading_rad = bounds.heading;
     const float sine = jcal_two_dof_mean(&self->moments, &self->best.point);
     verdict->carrying_rad = jcal_atan2(sine, sqrtf(jcal_max(1.0f - (sine * sine), 0.0f)));
-    const jcal_calibration_t found = missing(self, &bounds, misfit);
+    const jcal_calibration_t found = missing(self, &bounds, misfit, sine);
     if (found != JCAL_READY) {
         self->search.agreed = 0u;
         verdict->status = (uint8_t)found;

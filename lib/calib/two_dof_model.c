@@ -338,6 +338,16 @@ void jcal_two_dof_costs(const jcal_two_dof_moments_t *moments, jcal_constraint_t
     }
 }
 
+void jcal_two_dof_fade(jcal_two_dof_moments_t *moments, float share)
+{
+    jcal_sym_scale(moments->rotation, JCAL_TWO_DOF_FEATURES, share);
+    jcal_sym_scale(moments->orientation, JCAL_TWO_DOF_FEATURES, share);
+    for (size_t i = 0u; i < JCAL_TWO_DOF_FEATURES; ++i) {
+        moments->mean[i] *= share;
+    }
+    moments->weight *= share;
+}
+
 float jcal_two_dof_mean(const jcal_two_dof_moments_t *moments, const jcal_two_dof_point_t *point)
 {
     float slope[JCAL_TWO_DOF_UNKNOWNS];

@@ -53,6 +53,9 @@ void jcal_two_dof_combine(const jcal_two_dof_moments_t *moments, jcal_constraint
 void jcal_two_dof_costs(const jcal_two_dof_moments_t *moments, jcal_constraint_t constraint,
                         const jcal_two_dof_point_t *point, const jcal_plane_t *headings, unsigned count, float *costs);
 
+/// All sums become `share` of themselves.
+void jcal_two_dof_fade(jcal_two_dof_moments_t *moments, float share);
+
 /// Mean of g: sin(beta0).
 float jcal_two_dof_mean(const jcal_two_dof_moments_t *moments, const jcal_two_dof_point_t *point);
 
