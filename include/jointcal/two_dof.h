@@ -60,7 +60,7 @@ typedef struct {
         angle_noise_rad;  ///< Usual violation of the orientation-based constraint, rad. Range [1e-3, 0.5], default 0.013.
     float heading_drift_rad_s;  ///< How fast the heading offset may drift. Range [0, 0.05], default 3 deg/min.
     /// How long the heading offset is remembered once the status is `ready`, s: older data count for the axes only. Range [2, 600],
-    /// default 10.
+    /// default 5.
     float memory_s;
 } jcal_two_dof_config_t;
 
@@ -110,7 +110,8 @@ typedef struct {
     jcal_two_dof_probe_t probe;
     jcal_two_dof_point_t rival;  ///< Best other minimum.
     jcal_two_dof_lin_t lin;      ///< Of the point that is being worked on, rotation-based part first.
-    float parts[2];              ///< Of the cost at the estimate: rotation-based, orientation-based.
+    float parts[2];              ///< Of the cost at the estimate: rotation-based, orientation-based ...
+    float usual[2];              ///< ... and what they were while the calibration was ready.
     float cost;                  ///< Cost of the estimate, prior included ...
     float rival_cost;            ///< ... and of the rival.
     uint8_t turn;                ///< Next item of the cycle.
@@ -126,7 +127,7 @@ typedef struct {
     float bound1_rad;
     float bound2_rad;
     float bound_heading_rad;
-    float carrying_rad;
+    float sine;  ///< Mean of the orientation-based constraint: sine of the carrying angle.
     float
         excess;  ///< Residuals, squared, over what the config takes for usual; at least 1. Divides the data's information.
     uint8_t status, weak, hint, reason;  ///< As in jcal_two_dof_result_t.
@@ -147,14 +148,20 @@ typedef struct {
     jcal_two_dof_probe_t best;
     jcal_two_dof_search_t search;
     jcal_two_dof_verdict_t verdict;
-    uint64_t t_us;         ///< Time of the last sample in the sums.
-    float age_s;           ///< Mean age of what is in the sums.
-    float moving_s;        ///< Time in the sums, rest left out.
-    float since_forgot_s;  ///< Time since the sums were last faded.
-    uint8_t pushes;        ///< Samples since one was last kept.
-    uint8_t share;         ///< Items of work per call of step.
-    uint8_t item;          ///< Next item of work on the sample last taken.
+    uint64_t t_us;              ///< Time of the last sample in the sums.
+    jcal_plane_t heading_then;  ///< Heading offset when the sums were last faded ...
+    float drift_rad_s;          ///< ... and how fast it drifts.
+    float age_s;                ///< Mean age of what is in the sums.
+    float moving_s;             ///< Time in the sums, rest left out.
+    float since_forgot_s;       ///< Time since the sums were last faded.
+    uint8_t pushes;             ///< Samples since one was last kept.
+    uint8_t share;              ///< Items of work per call of step.
+    uint8_t item;               ///< Next item of work on the sample last taken.
     bool has_best;
+    bool calibrated;  ///< Ready was reached with this estimate: from now on a misfit means that a sensor has moved.
+    float recent
+        [2];  ///< Squared residuals over the usual of the last second of motion: rotation-based, orientation-based ...
+    float usual[2];  ///< ... and what they were while the calibration was ready.
 } jcal_two_dof_t;
 
 /// The defaults described at each field.

@@ -6,12 +6,14 @@
 #include "calib/two_dof_model.h"
 #include "calib/two_dof_residual.h"
 #include "calib/two_dof_search.h"
+#include "calib/two_dof_stream.h"
 #include "jointcal/quat.h"
 #include "math/angle.h"
 #include "math/scalar.h"
 
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #define MICROSECONDS 1e-6f
 
@@ -23,6 +25,9 @@
 
 /// Squared rates at which a sample counts half: rest tells nothing, (rad/s)^2.
 #define REST_RATE2 0.25f
+
+/// Time of motion over which residuals are averaged to notice that a sensor has moved, s.
+#define RECENT_TIME_S 1.0f
 
 /// Items of work for one kept sample: both kinds of moments, then slices of the search.
 #define ITEM_ROTATION 0u
@@ -43,7 +48,7 @@ jcal_two_dof_config_t jcal_two_dof_config_default(void)
         .rate_error = 0.02f,
         .angle_noise_rad = 0.013f,
         .heading_drift_rad_s = 3.0f * JCAL_RAD_PER_DEG / 60.0f,
-        .memory_s = 10.0f,
+        .memory_s = 5.0f,
     };
     return config;
 }
@@ -76,6 +81,28 @@ const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config)
     return jcal_gate_config_check(&config->gate);
 }
 
+void jcal_two_dof_begin_anew(jcal_two_dof_t *self, jcal_calibration_t status)
+{
+    (void)memset(&self->moments, 0, sizeof self->moments);
+    (void)memset(&self->prior, 0, sizeof self->prior);
+    (void)memset(&self->best, 0, sizeof self->best);
+    (void)memset(&self->search, 0, sizeof self->search);
+    (void)memset(&self->verdict, 0, sizeof self->verdict);
+    self->age_s = 0.0f;
+    self->moving_s = 0.0f;
+    self->since_forgot_s = 0.0f;
+    self->has_best = false;
+    self->calibrated = false;
+    self->verdict.status = (uint8_t)status;
+    self->verdict.bound1_rad = JCAL_HALF_PI;
+    self->verdict.bound2_rad = JCAL_HALF_PI;
+    self->verdict.bound_heading_rad = JCAL_HALF_PI;
+    self->verdict.excess = 1.0f;
+    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
+    self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+    self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+}
+
 jcal_status_t jcal_two_dof_init(jcal_two_dof_t *self, const jcal_two_dof_config_t *config)
 {
     if ((self == NULL) || (config == NULL)) {
@@ -89,13 +116,7 @@ jcal_status_t jcal_two_dof_init(jcal_two_dof_t *self, const jcal_two_dof_config_
     self->cfg = cfg;
     self->share = ITEMS;
     self->item = ITEMS;
-    self->verdict.bound1_rad = JCAL_HALF_PI;
-    self->verdict.bound2_rad = JCAL_HALF_PI;
-    self->verdict.bound_heading_rad = JCAL_HALF_PI;
-    self->verdict.excess = 1.0f;
-    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
-    self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
-    self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+    jcal_two_dof_begin_anew(self, JCAL_COLLECTING);
     return JCAL_OK;
 }
 
@@ -168,6 +189,12 @@ static bool middle(const jcal_two_dof_t *self, jcal_two_dof_sample_t *sample, fl
     return true;
 }
 
+/// Averages a squared residual, in units of what is usual, over the last second of motion.
+static void watch(jcal_two_dof_t *self, unsigned item, float square, float time_s)
+{
+    self->recent[item] += (square - self->recent[item]) * (time_s / (time_s + RECENT_TIME_S));
+}
+
 static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float rate2, float time_s)
 {
     const jcal_two_dof_config_t *const cfg = &self->cfg;
@@ -175,6 +202,11 @@ static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *samp
         (cfg->rate_noise_rad_s * cfg->rate_noise_rad_s) + (cfg->rate_error * cfg->rate_error * rate2);
     float features[JCAL_TWO_DOF_FEATURES];
     jcal_two_dof_rotation_features(sample, features);
+    if (self->calibrated) {
+        const float sine = self->verdict.sine;
+        const float residual = jcal_two_dof_value(features, &self->best.point);
+        watch(self, ITEM_ROTATION, residual * residual / (variance * (1.0f - (sine * sine))), time_s);
+    }
     const float weight = time_s / (JCAL_TWO_DOF_RATE_TIME_S * variance);
     jcal_two_dof_add(self->moments.rotation, features, weight);
 }
@@ -182,9 +214,14 @@ static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *samp
 static void add_orientation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float time_s)
 {
     const jcal_two_dof_config_t *const cfg = &self->cfg;
-    const float weight = time_s / (JCAL_TWO_DOF_ANGLE_TIME_S * cfg->angle_noise_rad * cfg->angle_noise_rad);
+    const float variance = cfg->angle_noise_rad * cfg->angle_noise_rad;
+    const float weight = time_s / (JCAL_TWO_DOF_ANGLE_TIME_S * variance);
     float features[JCAL_TWO_DOF_FEATURES];
     jcal_two_dof_orientation_features(sample, features);
+    if (self->calibrated) {
+        const float residual = jcal_two_dof_value(features, &self->best.point) - self->verdict.sine;
+        watch(self, ITEM_ORIENTATION, residual * residual / variance, time_s);
+    }
     jcal_two_dof_add(self->moments.orientation, features, weight);
     for (size_t i = 0u; i < JCAL_TWO_DOF_FEATURES; ++i) {
         self->moments.mean[i] += weight * features[i];
@@ -287,7 +324,9 @@ static void put_estimate(const jcal_two_dof_t *self, jcal_two_dof_result_t *out)
     out->axis1 = jcal_vec3_scale(point->j1, sign1);
     out->axis2 = jcal_vec3_scale(point->j2, sign2);
     out->heading_offset_rad = jcal_atan2(point->heading.im, point->heading.re);
-    out->carrying_angle_rad = sign1 * sign2 * self->verdict.carrying_rad;
+    out->carrying_angle_rad =
+        sign1 * sign2 *
+        jcal_atan2(self->verdict.sine, sqrtf(jcal_max(1.0f - (self->verdict.sine * self->verdict.sine), 0.0f)));
 }
 
 jcal_status_t jcal_two_dof_get(const jcal_two_dof_t *self, jcal_two_dof_result_t *out)

@@ -6,6 +6,7 @@
 #include "calib/two_dof_model.h"
 #include "calib/two_dof_prior.h"
 #include "calib/two_dof_residual.h"
+#include "calib/two_dof_stream.h"
 #include "math/angle.h"
 #include "math/chol.h"
 #include "math/scalar.h"
@@ -38,23 +39,32 @@
 /// What fades once the status is `ready`, and how often: per step of time, share of the memory.
 #define FADE_KEEP 0.75f
 #define FADE_SHARE 0.287682f /* -ln(FADE_KEEP) */
-/// Memory while nothing is known yet, s.
-#define COLLECT_MEMORY_S 60.0f
+/// Memory while nothing is known yet, s; and while what is remembered does not fit together, say because an orientation filter
+/// had not settled.
+#define COLLECT_MEMORY_S 40.0f
+#define MISFIT_MEMORY_S 6.0f
+#define MISFIT_FORGET 4.0f
+
+/// A sensor has moved when the residuals of the last second of motion, squared, are this many times what they were; the latter are
+/// followed by this share at each judgement.
+#define MOVED_SHARE 12.0f
+#define USUAL_SHARE 0.05f
+
+/// Time over which the drift of the heading offset is averaged, s, and the largest that is believed, times what the config says.
+#define DRIFT_TIME_S 20.0f
+#define DRIFT_MAX 2.0f
 
 typedef struct {
     float axis1, axis2, heading;
 } bounds_t;
 
-/// Residuals over what is usual: the larger of the two parts, at least 1. 2.5 unknowns are taken from either part.
-static float excess_of(const jcal_two_dof_t *self, float *largest)
+/// Residuals, squared, over what the config takes for usual, of either part. 2.5 unknowns are taken from each.
+static void ratios_of(const jcal_two_dof_t *self, float *ratios)
 {
-    const float *const parts = self->search.parts;
     const float n1 = jcal_max((self->moving_s / JCAL_TWO_DOF_RATE_TIME_S) - 2.5f, 1.0f);
     const float n2 = jcal_max((self->moving_s / JCAL_TWO_DOF_ANGLE_TIME_S) - 2.5f, 1.0f);
-    const float ratio1 = (self->cfg.constraint == JCAL_CONSTRAINT_ORIENTATION) ? 0.0f : (parts[0] / n1);
-    const float ratio2 = (self->cfg.constraint == JCAL_CONSTRAINT_ROTATION) ? 0.0f : (parts[1] / n2);
-    *largest = jcal_max(ratio1, ratio2);
-    return jcal_max(*largest, 1.0f);
+    ratios[0] = (self->cfg.constraint == JCAL_CONSTRAINT_ORIENTATION) ? 0.0f : (self->search.parts[0] / n1);
+    ratios[1] = (self->cfg.constraint == JCAL_CONSTRAINT_ROTATION) ? 0.0f : (self->search.parts[1] / n2);
 }
 
 /* 95 % radius of a Gaussian in the plane with covariance (a b; b c). */
@@ -127,9 +137,9 @@ static jcal_calibration_t missing(jcal_two_dof_t *self, const bounds_t *bounds, 
         say(verdict, weak, JCAL_HINT_CHECK_SENSORS, JCAL_REASON_BAD_SAMPLES);
         return JCAL_COLLECTING;
     }
-    if (!was_ready && (self->moving_s < MOVING_MIN_S)) {
+    if (!was_ready && (self->moving_s < MOVING_MIN_S)) { /* `moved` stays until there is something new to say */
         say(verdict, weak, JCAL_HINT_MOVE_JOINT, JCAL_REASON_NO_MOTION);
-        return JCAL_COLLECTING;
+        return (verdict->status == (uint8_t)JCAL_MOVED) ? JCAL_MOVED : JCAL_COLLECTING;
     }
     if ((misfit > MISFIT_MAX) || (fabsf(sine) > SINE_MAX)) {
         say(verdict, weak, JCAL_HINT_CHECK_SENSORS, JCAL_REASON_DOES_NOT_FIT);
@@ -152,15 +162,36 @@ static jcal_calibration_t missing(jcal_two_dof_t *self, const bounds_t *bounds, 
     return JCAL_READY;
 }
 
-static void fade(jcal_two_dof_t *self)
+/// Follows the drift of the heading offset, and refers the sums to where it is by now.
+static void follow_drift(jcal_two_dof_t *self, float time_s)
+{
+    const jcal_plane_t now = self->best.point.heading;
+    const jcal_plane_t turned = jcal_plane_against(self->heading_then, now);
+    self->heading_then = now;
+    if (!(jcal_plane_norm2(turned) > 0.0f)) {
+        return;
+    }
+    const float limit = DRIFT_MAX * self->cfg.heading_drift_rad_s;
+    const float rate = jcal_atan2(turned.im, turned.re) / time_s;
+    const float drift = self->drift_rad_s + ((rate - self->drift_rad_s) * (time_s / (time_s + DRIFT_TIME_S)));
+    self->drift_rad_s = jcal_max(jcal_min(drift, limit), -limit);
+    const jcal_plane_t turn = jcal_plane_turn(self->drift_rad_s * time_s);
+    jcal_two_dof_turn(&self->moments, turn);
+    self->best.point.heading = jcal_plane_direction(jcal_plane_times(now, turn));
+}
+
+static void fade(jcal_two_dof_t *self, float misfit)
 {
     const bool ready = self->verdict.status == (uint8_t)JCAL_READY;
-    const float memory_s = ready ? self->cfg.memory_s : COLLECT_MEMORY_S;
+    const float collect_s = (misfit > MISFIT_FORGET) ? MISFIT_MEMORY_S : COLLECT_MEMORY_S;
+    const float memory_s = ready ? self->cfg.memory_s : collect_s;
     if (self->since_forgot_s < (FADE_SHARE * memory_s)) {
         return;
     }
+    const float time_s = self->since_forgot_s;
     self->since_forgot_s = 0.0f;
     if (ready) {
+        follow_drift(self, time_s);
         jcal_two_dof_prior_take(&self->prior, &self->best.point, &self->search.lin, 1.0f - FADE_KEEP);
     }
     jcal_two_dof_fade(&self->moments, FADE_KEEP);
@@ -169,17 +200,46 @@ static void fade(jcal_two_dof_t *self)
     self->search.rival_cost *= FADE_KEEP;
 }
 
+/// Follows the residuals while the calibration is ready; begins with them.
+static void learn_usual(jcal_two_dof_t *self, const float *ratios)
+{
+    if (self->verdict.status != (uint8_t)JCAL_READY) {
+        return;
+    }
+    for (unsigned i = 0u; i < 2u; ++i) {
+        const float ratio = jcal_max(ratios[i], 1.0f);
+        const float share = self->calibrated ? USUAL_SHARE : 1.0f;
+        self->usual[i] += share * (ratio - self->usual[i]);
+        self->recent[i] = self->calibrated ? self->recent[i] : ratio;
+    }
+    self->calibrated = true;
+}
+
+/// True if the last second of motion does not fit the calibration that was ready.
+static bool has_moved(const jcal_two_dof_t *self)
+{
+    const bool rotation = self->recent[0] > (MOVED_SHARE * self->usual[0]);
+    const bool orientation = self->recent[1] > (MOVED_SHARE * self->usual[1]);
+    return self->calibrated && ((rotation && (self->cfg.constraint != JCAL_CONSTRAINT_ORIENTATION)) ||
+                                (orientation && (self->cfg.constraint != JCAL_CONSTRAINT_ROTATION)));
+}
+
 void jcal_two_dof_judge(jcal_two_dof_t *self)
 {
     jcal_two_dof_verdict_t *const verdict = &self->verdict;
-    float misfit;
-    const float excess = excess_of(self, &misfit);
+    if (has_moved(self)) {
+        jcal_two_dof_begin_anew(self, JCAL_MOVED);
+        return;
+    }
+    float ratios[2];
+    ratios_of(self, ratios);
+    const float misfit = jcal_max(ratios[0], ratios[1]);
     const bounds_t bounds = bounds_of(self);
     verdict->bound1_rad = bounds.axis1;
     verdict->bound2_rad = bounds.axis2;
     verdict->bound_heading_rad = bounds.heading;
     const float sine = jcal_two_dof_mean(&self->moments, &self->best.point);
-    verdict->carrying_rad = jcal_atan2(sine, sqrtf(jcal_max(1.0f - (sine * sine), 0.0f)));
+    verdict->sine = sine;
     const jcal_calibration_t found = missing(self, &bounds, misfit, sine);
     if (found != JCAL_READY) {
         self->search.agreed = 0u;
@@ -194,6 +254,7 @@ void jcal_two_dof_judge(jcal_two_dof_t *self)
     } else {
         /* ready, and stays so */
     }
-    fade(self);
-    verdict->excess = excess;
+    fade(self, misfit);
+    learn_usual(self, ratios);
+    verdict->excess = jcal_max(misfit, 1.0f);
 }

@@ -196,6 +196,18 @@ static void outer(jcal_vec3_t a, jcal_vec3_t b, float *out)
     }
 }
 
+float jcal_two_dof_value(const float *features, const jcal_two_dof_point_t *point)
+{
+    float pairs[PAIRS];
+    float value = 0.0f;
+    outer(point->j1, point->j2, pairs);
+    for (size_t a = 0u; a < PAIRS; ++a) {
+        const float *const f = &features[3u * a];
+        value += pairs[a] * ((f[0] * point->heading.re) + (f[1] * point->heading.im) + f[2]);
+    }
+    return value;
+}
+
 /// j1_i j2_k and its derivatives by the four tilts.
 typedef struct {
     float pairs[PAIRS];
@@ -335,6 +347,53 @@ void jcal_two_dof_costs(const jcal_two_dof_moments_t *moments, jcal_constraint_t
         const float part2 = square - (sum * sum * per_weight);
         costs[i] = ((constraint == JCAL_CONSTRAINT_ORIENTATION) ? 0.0f : part1) +
                    ((constraint == JCAL_CONSTRAINT_ROTATION) ? 0.0f : part2);
+    }
+}
+
+/* (x, y) turned */
+static inline void turn2(float *x, float *y, jcal_plane_t turn)
+{
+    const float a = *x;
+    const float b = *y;
+    *x = (turn.re * a) - (turn.im * b);
+    *y = (turn.im * a) + (turn.re * b);
+}
+
+/* m <- U m U', U turning the first two of each three. */
+static void turn_form(float *m, jcal_plane_t turn)
+{
+    for (size_t a = 0u; a < PAIRS; ++a) {
+        float *const row0 = &m[JCAL_SYM_SIZE(3u * a)];
+        float *const row1 = &m[JCAL_SYM_SIZE((3u * a) + 1u)];
+        float *const row2 = &m[JCAL_SYM_SIZE((3u * a) + 2u)];
+        for (size_t b = 0u; b < a; ++b) {
+            for (size_t q = 3u * b; q < ((3u * b) + 3u); ++q) {
+                turn2(&row0[q], &row1[q], turn);
+            }
+            turn2(&row0[3u * b], &row0[(3u * b) + 1u], turn);
+            turn2(&row1[3u * b], &row1[(3u * b) + 1u], turn);
+            turn2(&row2[3u * b], &row2[(3u * b) + 1u], turn);
+        }
+        const size_t d = 3u * a;
+        float lower[2] = {row0[d], row1[d]};      /* first column of the diagonal block ... */
+        float upper[2] = {row1[d], row1[d + 1u]}; /* ... and second */
+        turn2(&lower[0], &lower[1], turn);
+        turn2(&upper[0], &upper[1], turn);
+        turn2(&lower[0], &upper[0], turn);
+        turn2(&lower[1], &upper[1], turn);
+        row0[d] = lower[0];
+        row1[d] = lower[1];
+        row1[d + 1u] = upper[1];
+        turn2(&row2[d], &row2[d + 1u], turn);
+    }
+}
+
+void jcal_two_dof_turn(jcal_two_dof_moments_t *moments, jcal_plane_t turn)
+{
+    turn_form(moments->rotation, turn);
+    turn_form(moments->orientation, turn);
+    for (size_t a = 0u; a < PAIRS; ++a) {
+        turn2(&moments->mean[3u * a], &moments->mean[(3u * a) + 1u], turn);
     }
 }
 

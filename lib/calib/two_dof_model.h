@@ -35,6 +35,9 @@ typedef struct {
 void jcal_two_dof_rotation_features(const jcal_two_dof_sample_t *sample, float *f);
 void jcal_two_dof_orientation_features(const jcal_two_dof_sample_t *sample, float *g);
 
+/// features . phi. Cost: 36 multiply-adds.
+float jcal_two_dof_value(const float *features, const jcal_two_dof_point_t *point);
+
 /// m (27 x 27, packed) <- m + weight v v'. Cost: 378 multiply-adds.
 void jcal_two_dof_add(float *m, const float *v, float weight);
 
@@ -52,6 +55,12 @@ void jcal_two_dof_combine(const jcal_two_dof_moments_t *moments, jcal_constraint
 /// Cost: about 900 multiply-adds and 60 for each heading.
 void jcal_two_dof_costs(const jcal_two_dof_moments_t *moments, jcal_constraint_t constraint,
                         const jcal_two_dof_point_t *point, const jcal_plane_t *headings, unsigned count, float *costs);
+
+/// Refers all sums to a heading offset that is larger by `turn`: samples taken at delta look as if taken at delta + turn.
+///
+/// phi depends on the heading by u = (c, s, 1) only, so that this is a turn of the features with m = 0 and m = 1.
+/// Cost: about 2,000 multiply-adds.
+void jcal_two_dof_turn(jcal_two_dof_moments_t *moments, jcal_plane_t turn);
 
 /// All sums become `share` of themselves.
 void jcal_two_dof_fade(jcal_two_dof_moments_t *moments, float share);

@@ -6,6 +6,7 @@
 #include "calib/two_dof_judge.h"
 #include "calib/two_dof_model.h"
 #include "calib/two_dof_prior.h"
+#include "calib/two_dof_stream.h"
 #include "math/scalar.h"
 #include "math/solve.h"
 
@@ -176,12 +177,21 @@ static void begin_probe(jcal_two_dof_t *self)
     search->probing = true;
 }
 
+/// Makes a point the estimate. If the one before it was ready, the joint is another one now.
 static void adopt(jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
 {
+    if (self->calibrated) {
+        jcal_two_dof_begin_anew(self, JCAL_MOVED);
+        return;
+    }
     begin(&self->best, point);
     self->has_best = true;
+    self->heading_then = (jcal_plane_t){0.0f, 0.0f};
+    self->drift_rad_s = 0.0f;
     self->search.agreed = 0u;
-    self->verdict.status = (uint8_t)JCAL_COLLECTING;
+    if (self->verdict.status != (uint8_t)JCAL_MOVED) {
+        self->verdict.status = (uint8_t)JCAL_COLLECTING;
+    }
     self->verdict.reason = (uint8_t)JCAL_REASON_UNCERTAIN;
 }
 
