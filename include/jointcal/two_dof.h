@@ -157,6 +157,8 @@ typedef struct {
     uint8_t pushes;             ///< Samples since one was last kept.
     uint8_t share;              ///< Items of work per call of step.
     uint8_t item;               ///< Next item of work on the sample last taken.
+    float time_s;  ///< Weight of the sample that is being summed, s: its time, less if there is little motion.
+    bool odd;      ///< Every other sample, once the status is ready, gets a slice of the search.
     bool has_best;
     bool calibrated;  ///< Ready was reached with this estimate: from now on a misfit means that a sensor has moved.
     float recent

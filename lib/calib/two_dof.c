@@ -11,6 +11,7 @@
 #include "math/angle.h"
 #include "math/scalar.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -28,6 +29,9 @@
 
 /// Time of motion over which residuals are averaged to notice that a sensor has moved, s.
 #define RECENT_TIME_S 1.0f
+
+/// A sensor has moved when the residuals of the last second of motion, squared, are this many times what they were.
+#define MOVED_SHARE 12.0f
 
 /// Items of work for one kept sample: both kinds of moments, then slices of the search.
 #define ITEM_ROTATION 0u
@@ -195,8 +199,9 @@ static void watch(jcal_two_dof_t *self, unsigned item, float square, float time_
     self->recent[item] += (square - self->recent[item]) * (time_s / (time_s + RECENT_TIME_S));
 }
 
-static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float rate2, float time_s)
+static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float rate2)
 {
+    const float time_s = self->time_s;
     const jcal_two_dof_config_t *const cfg = &self->cfg;
     const float variance =
         (cfg->rate_noise_rad_s * cfg->rate_noise_rad_s) + (cfg->rate_error * cfg->rate_error * rate2);
@@ -211,13 +216,14 @@ static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *samp
     jcal_two_dof_add(self->moments.rotation, features, weight);
 }
 
-static void add_orientation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float time_s)
+static void add_orientation(jcal_two_dof_t *self, const jcal_orientation_pair_t *pair)
 {
+    const float time_s = self->time_s;
     const jcal_two_dof_config_t *const cfg = &self->cfg;
     const float variance = cfg->angle_noise_rad * cfg->angle_noise_rad;
     const float weight = time_s / (JCAL_TWO_DOF_ANGLE_TIME_S * variance);
     float features[JCAL_TWO_DOF_FEATURES];
-    jcal_two_dof_orientation_features(sample, features);
+    jcal_two_dof_orientation_features(pair->q1, pair->q2, features);
     if (self->calibrated) {
         const float residual = jcal_two_dof_value(features, &self->best.point) - self->verdict.sine;
         watch(self, ITEM_ORIENTATION, residual * residual / variance, time_s);
@@ -229,38 +235,65 @@ static void add_orientation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *s
     self->moments.weight += weight;
 }
 
-/// Moments of the sample last taken, of one kind.
-static void sum_up(jcal_two_dof_t *self, unsigned item)
+/// True if the last second of motion does not fit the calibration that was ready.
+static bool has_moved(const jcal_two_dof_t *self)
+{
+    const bool rotation = self->recent[0] > (MOVED_SHARE * self->usual[0]);
+    const bool orientation = self->recent[1] > (MOVED_SHARE * self->usual[1]);
+    return self->calibrated && ((rotation && (self->cfg.constraint != JCAL_CONSTRAINT_ORIENTATION)) ||
+                                (orientation && (self->cfg.constraint != JCAL_CONSTRAINT_ROTATION)));
+}
+
+/// Rotation-based moments of the sample last taken.
+static void sum_rotation(jcal_two_dof_t *self)
 {
     jcal_two_dof_sample_t sample;
     float dt_s;
+    self->time_s = 0.0f;
     if (!middle(self, &sample, &dt_s)) {
         return;
     }
     const float rate2 = jcal_vec3_dot(sample.w1, sample.w1) + jcal_vec3_dot(sample.w2, sample.w2);
-    const float time_s = dt_s * (rate2 / (rate2 + REST_RATE2));
-    if (item == ITEM_ROTATION) {
-        add_rotation(self, &sample, rate2, time_s);
-    } else {
-        add_orientation(self, &sample, time_s);
-        self->age_s = (self->age_s + dt_s) * (self->moving_s / (self->moving_s + time_s + 1e-9f));
-        self->moving_s += time_s;
-        self->since_forgot_s += dt_s;
+    self->time_s = dt_s * (rate2 / (rate2 + REST_RATE2));
+    self->age_s = (self->age_s + dt_s) * (self->moving_s / (self->moving_s + self->time_s + FLT_MIN));
+    self->since_forgot_s += dt_s;
+    add_rotation(self, &sample, rate2);
+}
+
+/// Orientation-based ones of the same sample.
+static void sum_orientation(jcal_two_dof_t *self)
+{
+    if (self->time_s > 0.0f) {
+        add_orientation(self, kept(self, 1u));
+        self->moving_s += self->time_s;
         self->t_us = kept(self, 1u)->t_us;
+    }
+    if (self->calibrated && has_moved(self)) {
+        jcal_two_dof_begin_anew(self, JCAL_MOVED);
     }
 }
 
+/// Items of work for the sample last taken: slices of the search are fewer once the status is ready.
 static unsigned items_of(const jcal_two_dof_t *self)
 {
-    return (self->verdict.status == (uint8_t)JCAL_READY) ? ITEMS_READY : ITEMS;
+    if (self->verdict.status != (uint8_t)JCAL_READY) {
+        return ITEMS;
+    }
+    return self->odd ? ITEMS_READY : (ITEM_ORIENTATION + 1u);
 }
 
 static void do_item(jcal_two_dof_t *self)
 {
-    if (self->item <= ITEM_ORIENTATION) {
-        sum_up(self, self->item);
-    } else {
+    switch (self->item) {
+    case ITEM_ROTATION:
+        sum_rotation(self);
+        break;
+    case ITEM_ORIENTATION:
+        sum_orientation(self);
+        break;
+    default:
         jcal_two_dof_work(self);
+        break;
     }
     self->item = (uint8_t)(self->item + 1u);
 }
@@ -276,6 +309,7 @@ static void take(jcal_two_dof_t *self)
     self->pushes = 0u;
     self->taken = self->taken + 1u;
     self->item = 0u;
+    self->odd = !self->odd;
 }
 
 jcal_status_t jcal_two_dof_step(jcal_two_dof_t *self)

@@ -6,7 +6,6 @@
 #include "calib/two_dof_model.h"
 #include "calib/two_dof_prior.h"
 #include "calib/two_dof_residual.h"
-#include "calib/two_dof_stream.h"
 #include "math/angle.h"
 #include "math/chol.h"
 #include "math/scalar.h"
@@ -45,9 +44,7 @@
 #define MISFIT_MEMORY_S 6.0f
 #define MISFIT_FORGET 4.0f
 
-/// A sensor has moved when the residuals of the last second of motion, squared, are this many times what they were; the latter are
-/// followed by this share at each judgement.
-#define MOVED_SHARE 12.0f
+/// Share of each judgement in what is usual.
 #define USUAL_SHARE 0.05f
 
 /// Time over which the drift of the heading offset is averaged, s, and the largest that is believed, times what the config says.
@@ -180,24 +177,31 @@ static void follow_drift(jcal_two_dof_t *self, float time_s)
     self->best.point.heading = jcal_plane_direction(jcal_plane_times(now, turn));
 }
 
-static void fade(jcal_two_dof_t *self, float misfit)
+bool jcal_two_dof_fade_is_due(const jcal_two_dof_t *self)
 {
     const bool ready = self->verdict.status == (uint8_t)JCAL_READY;
-    const float collect_s = (misfit > MISFIT_FORGET) ? MISFIT_MEMORY_S : COLLECT_MEMORY_S;
-    const float memory_s = ready ? self->cfg.memory_s : collect_s;
-    if (self->since_forgot_s < (FADE_SHARE * memory_s)) {
-        return;
-    }
-    const float time_s = self->since_forgot_s;
-    self->since_forgot_s = 0.0f;
-    if (ready) {
-        follow_drift(self, time_s);
+    const float collect_s = (self->verdict.excess > MISFIT_FORGET) ? MISFIT_MEMORY_S : COLLECT_MEMORY_S;
+    return self->since_forgot_s >= (FADE_SHARE * (ready ? self->cfg.memory_s : collect_s));
+}
+
+void jcal_two_dof_fade_now(jcal_two_dof_t *self)
+{
+    if (self->verdict.status == (uint8_t)JCAL_READY) {
         jcal_two_dof_prior_take(&self->prior, &self->best.point, &self->search.lin, 1.0f - FADE_KEEP);
     }
     jcal_two_dof_fade(&self->moments, FADE_KEEP);
     self->moving_s *= FADE_KEEP;
     self->search.cost *= FADE_KEEP;
     self->search.rival_cost *= FADE_KEEP;
+}
+
+void jcal_two_dof_follow_drift(jcal_two_dof_t *self)
+{
+    const float time_s = self->since_forgot_s;
+    self->since_forgot_s = 0.0f;
+    if (self->verdict.status == (uint8_t)JCAL_READY) {
+        follow_drift(self, time_s);
+    }
 }
 
 /// Follows the residuals while the calibration is ready; begins with them.
@@ -215,22 +219,9 @@ static void learn_usual(jcal_two_dof_t *self, const float *ratios)
     self->calibrated = true;
 }
 
-/// True if the last second of motion does not fit the calibration that was ready.
-static bool has_moved(const jcal_two_dof_t *self)
-{
-    const bool rotation = self->recent[0] > (MOVED_SHARE * self->usual[0]);
-    const bool orientation = self->recent[1] > (MOVED_SHARE * self->usual[1]);
-    return self->calibrated && ((rotation && (self->cfg.constraint != JCAL_CONSTRAINT_ORIENTATION)) ||
-                                (orientation && (self->cfg.constraint != JCAL_CONSTRAINT_ROTATION)));
-}
-
 void jcal_two_dof_judge(jcal_two_dof_t *self)
 {
     jcal_two_dof_verdict_t *const verdict = &self->verdict;
-    if (has_moved(self)) {
-        jcal_two_dof_begin_anew(self, JCAL_MOVED);
-        return;
-    }
     float ratios[2];
     ratios_of(self, ratios);
     const float misfit = jcal_max(ratios[0], ratios[1]);
@@ -254,7 +245,6 @@ void jcal_two_dof_judge(jcal_two_dof_t *self)
     } else {
         /* ready, and stays so */
     }
-    fade(self, misfit);
     learn_usual(self, ratios);
     verdict->excess = jcal_max(misfit, 1.0f);
 }

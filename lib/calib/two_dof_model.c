@@ -56,10 +56,10 @@ void jcal_two_dof_rotation_features(const jcal_two_dof_sample_t *sample, float *
     }
 }
 
-void jcal_two_dof_orientation_features(const jcal_two_dof_sample_t *sample, float *g)
+void jcal_two_dof_orientation_features(jcal_quat_t q1, jcal_quat_t q2, float *g)
 {
-    const rotation_t r1 = rotation_of(sample->q1);
-    const rotation_t r2 = rotation_of(sample->q2);
+    const rotation_t r1 = rotation_of(q1);
+    const rotation_t r2 = rotation_of(q2);
     for (size_t i = 0u; i < 3u; ++i) {
         for (size_t k = 0u; k < 3u; ++k) {
             dot_turned(r1.column[i], r2.column[k], &g[((i * 3u) + k) * 3u]);
@@ -99,35 +99,9 @@ void jcal_two_dof_add(float *m, const float *v, float weight)
     }
 }
 
-/// A 3 x 3 block of the moments, that of the pairs a and b.
-typedef struct {
-    float at[3][3];
-} block_t;
-
 static inline const float *row_of(const float *m, size_t row, size_t column)
 {
     return &m[JCAL_SYM_SIZE(row) + column];
-}
-
-static block_t block_below(const float *m, size_t a, size_t b)
-{
-    block_t out;
-    for (size_t p = 0u; p < 3u; ++p) {
-        const float *const row = row_of(m, (3u * a) + p, 3u * b);
-        out.at[p][0] = row[0];
-        out.at[p][1] = row[1];
-        out.at[p][2] = row[2];
-    }
-    return out;
-}
-
-static block_t block_diagonal(const float *m, size_t a)
-{
-    const float *const r0 = row_of(m, 3u * a, 3u * a);
-    const float *const r1 = row_of(m, (3u * a) + 1u, 3u * a);
-    const float *const r2 = row_of(m, (3u * a) + 2u, 3u * a);
-    const block_t out = {{{r0[0], r1[0], r2[0]}, {r1[0], r1[1], r2[1]}, {r2[0], r2[1], r2[2]}}};
-    return out;
 }
 
 /// Moments contracted with u on both sides, and with u on one and du / d(delta) on the other.
@@ -143,46 +117,46 @@ static inline float dot9(const float *a, const float *b)
            (a[6] * b[6]) + (a[7] * b[7]) + (a[8] * b[8]);
 }
 
-/* Adds one block; c, s are u's, so that u = (c, s, 1) and du = (-s, c, 0). */
-static void contract_block(const block_t *block, jcal_plane_t u, size_t a, size_t b, const float *pairs,
-                           contracted_t *out)
-{
-    float on_u[3]; /* block u */
-    float on_d[3]; /* block du */
-    for (size_t p = 0u; p < 3u; ++p) {
-        const float *const row = block->at[p];
-        on_u[p] = (row[0] * u.re) + (row[1] * u.im) + row[2];
-        on_d[p] = (row[1] * u.re) - (row[0] * u.im);
-    }
-    const float uu = (on_u[0] * u.re) + (on_u[1] * u.im) + on_u[2];
-    const float ud = (on_d[0] * u.re) + (on_d[1] * u.im) + on_d[2]; /* du on the side of b */
-    const float du = (on_u[1] * u.re) - (on_u[0] * u.im);           /* du on the side of a */
-    const float dd = (on_d[1] * u.re) - (on_d[0] * u.im);
-    out->uu[a][b] = uu;
-    out->ud[a] += ud * pairs[b];
-    if (a == b) {
-        out->dd += dd * pairs[a] * pairs[a];
-    } else {
-        out->uu[b][a] = uu;
-        out->ud[b] += du * pairs[a];
-        out->dd += 2.0f * dd * pairs[a] * pairs[b];
-    }
-}
-
+/* u = (c, s, 1) and du = (-s, c, 0); r0 to r2 are rows of the moments. */
 static void contract(const float *m, jcal_plane_t u, const float *pairs, contracted_t *out)
 {
-    out->dd = 0.0f;
+    const float c = u.re;
+    const float s = u.im;
+    float sum_dd = 0.0f;
     for (size_t a = 0u; a < PAIRS; ++a) {
-        out->ud[a] = 0.0f;
-    }
-    for (size_t a = 0u; a < PAIRS; ++a) {
+        const float *r0 = row_of(m, 3u * a, 0u);
+        const float *r1 = row_of(m, (3u * a) + 1u, 0u);
+        const float *r2 = row_of(m, (3u * a) + 2u, 0u);
+        const float pair = pairs[a];
+        float on_ud = 0.0f; /* times the pairs */
+        float on_dd = 0.0f;
         for (size_t b = 0u; b < a; ++b) {
-            const block_t block = block_below(m, a, b);
-            contract_block(&block, u, a, b, pairs, out);
+            const float u0 = (r0[0] * c) + (r0[1] * s) + r0[2]; /* block u */
+            const float u1 = (r1[0] * c) + (r1[1] * s) + r1[2];
+            const float u2 = (r2[0] * c) + (r2[1] * s) + r2[2];
+            const float d0 = (r0[1] * c) - (r0[0] * s); /* block du */
+            const float d1 = (r1[1] * c) - (r1[0] * s);
+            const float d2 = (r2[1] * c) - (r2[0] * s);
+            const float uu = (u0 * c) + (u1 * s) + u2;
+            out->uu[a][b] = uu;
+            out->uu[b][a] = uu;
+            on_ud += ((d0 * c) + (d1 * s) + d2) * pairs[b];
+            on_dd += ((d1 * c) - (d0 * s)) * pairs[b];
+            out->ud[b] += ((u1 * c) - (u0 * s)) * pair;
+            r0 += 3;
+            r1 += 3;
+            r2 += 3;
         }
-        const block_t block = block_diagonal(m, a);
-        contract_block(&block, u, a, a, pairs, out);
+        const float u0 = (r0[0] * c) + (r1[0] * s) + r2[0]; /* the block on the diagonal: its lower triangle is there */
+        const float u1 = (r1[0] * c) + (r1[1] * s) + r2[1];
+        const float u2 = (r2[0] * c) + (r2[1] * s) + r2[2];
+        const float d0 = (r1[0] * c) - (r0[0] * s);
+        const float d1 = (r1[1] * c) - (r1[0] * s);
+        out->uu[a][a] = (u0 * c) + (u1 * s) + u2;
+        out->ud[a] = on_ud + (((u1 * c) - (u0 * s)) * pair);
+        sum_dd += pair * ((2.0f * on_dd) + (((d1 * c) - (d0 * s)) * pair));
     }
+    out->dd = sum_dd;
 }
 
 /* out (9) <- a_i b_k */
@@ -214,70 +188,85 @@ typedef struct {
     float slope[4][PAIRS];
 } pairs_t;
 
-static pairs_t pairs_of(const jcal_two_dof_point_t *point)
+static void pairs_of(const jcal_two_dof_point_t *point, pairs_t *out)
 {
-    pairs_t out;
     const jcal_tangent_t t1 = jcal_sphere_tangent(point->j1);
     const jcal_tangent_t t2 = jcal_sphere_tangent(point->j2);
-    outer(point->j1, point->j2, out.pairs);
-    outer(t1.u, point->j2, out.slope[0]);
-    outer(t1.v, point->j2, out.slope[1]);
-    outer(point->j1, t2.u, out.slope[2]);
-    outer(point->j1, t2.v, out.slope[3]);
-    return out;
+    outer(point->j1, point->j2, out->pairs);
+    outer(t1.u, point->j2, out->slope[0]);
+    outer(t1.v, point->j2, out->slope[1]);
+    outer(point->j1, t2.u, out->slope[2]);
+    outer(point->j1, t2.v, out->slope[3]);
+}
+
+/* out (9) <- uu v, v (9) */
+static void times9(const contracted_t *sums, const float *v, float *out)
+{
+    const float v0 = v[0], v1 = v[1], v2 = v[2], v3 = v[3], v4 = v[4], v5 = v[5], v6 = v[6], v7 = v[7], v8 = v[8];
+    const float *row = sums->uu[0];
+    for (size_t a = 0u; a < PAIRS; ++a) {
+        out[a] = (row[0] * v0) + (row[1] * v1) + (row[2] * v2) + (row[3] * v3) + (row[4] * v4) + (row[5] * v5) +
+                 (row[6] * v6) + (row[7] * v7) + (row[8] * v8);
+        row += PAIRS;
+    }
+}
+
+static void form_of(const float *m, jcal_plane_t heading, const pairs_t *p, jcal_two_dof_lin_t *lin)
+{
+    contracted_t sums;
+    contract(m, heading, p->pairs, &sums);
+    float on[PAIRS];
+    times9(&sums, p->pairs, on);
+    lin->cost = dot9(on, p->pairs);
+    lin->gradient[4] = dot9(sums.ud, p->pairs);
+    lin->matrix[14] = sums.dd;
+    float *row = lin->matrix;
+    for (size_t i = 0u; i < 4u; ++i) {
+        lin->gradient[i] = dot9(on, p->slope[i]);
+        lin->matrix[10u + i] = dot9(sums.ud, p->slope[i]);
+    }
+    for (size_t i = 0u; i < 4u; ++i) {
+        times9(&sums, p->slope[i], on);
+        for (size_t k = 0u; k <= i; ++k) {
+            *row = dot9(on, p->slope[k]);
+            ++row;
+        }
+    }
 }
 
 void jcal_two_dof_form(const float *m, const jcal_two_dof_point_t *point, jcal_two_dof_lin_t *lin)
 {
-    const pairs_t p = pairs_of(point);
-    contracted_t sums;
-    contract(m, point->heading, p.pairs, &sums);
-    float on[PAIRS]; /* uu times a vector of pairs */
-    for (size_t a = 0u; a < PAIRS; ++a) {
-        on[a] = dot9(sums.uu[a], p.pairs);
-    }
-    lin->cost = dot9(on, p.pairs);
-    lin->gradient[4] = dot9(sums.ud, p.pairs);
-    lin->matrix[jcal_sym_at(4u, 4u)] = sums.dd;
-    for (size_t i = 0u; i < 4u; ++i) {
-        lin->gradient[i] = dot9(on, p.slope[i]);
-        lin->matrix[jcal_sym_at(4u, i)] = dot9(sums.ud, p.slope[i]);
-    }
-    for (size_t i = 0u; i < 4u; ++i) {
-        for (size_t a = 0u; a < PAIRS; ++a) {
-            on[a] = dot9(sums.uu[a], p.slope[i]);
-        }
-        for (size_t k = 0u; k <= i; ++k) {
-            lin->matrix[jcal_sym_at(i, k)] = dot9(on, p.slope[k]);
-        }
-    }
+    pairs_t pairs;
+    pairs_of(point, &pairs);
+    form_of(m, point->heading, &pairs, lin);
 }
 
 /* sum (m_a u) A_a and its derivatives by the five unknowns */
-static float mean_of(const float *mean, const jcal_two_dof_point_t *point, float *slope)
+static float mean_of(const float *mean, jcal_plane_t heading, const pairs_t *p, float *slope)
 {
-    const pairs_t p = pairs_of(point);
     float on_u[PAIRS];
     float on_d[PAIRS];
     for (size_t a = 0u; a < PAIRS; ++a) {
         const float *const m = &mean[3u * a];
-        on_u[a] = (m[0] * point->heading.re) + (m[1] * point->heading.im) + m[2];
-        on_d[a] = (m[1] * point->heading.re) - (m[0] * point->heading.im);
+        on_u[a] = (m[0] * heading.re) + (m[1] * heading.im) + m[2];
+        on_d[a] = (m[1] * heading.re) - (m[0] * heading.im);
     }
     for (size_t i = 0u; i < 4u; ++i) {
-        slope[i] = dot9(on_u, p.slope[i]);
+        slope[i] = dot9(on_u, p->slope[i]);
     }
-    slope[4] = dot9(on_d, p.pairs);
-    return dot9(on_u, p.pairs);
+    slope[4] = dot9(on_d, p->pairs);
+    return dot9(on_u, p->pairs);
 }
 
 void jcal_two_dof_combine(const jcal_two_dof_moments_t *moments, jcal_constraint_t constraint,
                           const jcal_two_dof_point_t *point, jcal_two_dof_lin_t *lin, float *parts)
 {
     jcal_two_dof_lin_t form;
-    jcal_two_dof_form(moments->orientation, point, &form);
+    pairs_t pairs;
     float slope[JCAL_TWO_DOF_UNKNOWNS];
-    const float sum = mean_of(moments->mean, point, slope);
+    pairs_of(point, &pairs);
+    form_of(moments->orientation, point->heading, &pairs, &form);
+    const float sum = mean_of(moments->mean, point->heading, &pairs, slope);
     const float per_weight = (moments->weight > 0.0f) ? (1.0f / moments->weight) : 0.0f;
     const float normal2 = jcal_max(1.0f - (form.cost * per_weight), NORMAL2_MIN);
     const float rotation = (constraint == JCAL_CONSTRAINT_ORIENTATION) ? 0.0f : (1.0f / normal2);
@@ -285,13 +274,16 @@ void jcal_two_dof_combine(const jcal_two_dof_moments_t *moments, jcal_constraint
     const float orientation = (constraint == JCAL_CONSTRAINT_ROTATION) ? 0.0f : 1.0f;
     const float part1 = rotation * lin->cost;
     const float part2 = jcal_max(form.cost - (sum * sum * per_weight), 0.0f);
+    const float *from = form.matrix;
+    float *to = lin->matrix;
     for (size_t i = 0u; i < JCAL_TWO_DOF_UNKNOWNS; ++i) {
+        const float mean = slope[i] * per_weight;
         lin->gradient[i] = (rotation * lin->gradient[i]) + (bend * form.gradient[i]) +
-                           (orientation * (form.gradient[i] - (sum * slope[i] * per_weight)));
+                           (orientation * (form.gradient[i] - (sum * mean)));
         for (size_t k = 0u; k <= i; ++k) {
-            const size_t at = jcal_sym_at(i, k);
-            lin->matrix[at] =
-                (rotation * lin->matrix[at]) + (orientation * (form.matrix[at] - (slope[i] * slope[k] * per_weight)));
+            *to = (rotation * *to) + (orientation * (*from - (slope[k] * mean)));
+            ++to;
+            ++from;
         }
     }
     lin->cost = part1 + (orientation * part2);
@@ -304,24 +296,37 @@ void jcal_two_dof_combine(const jcal_two_dof_moments_t *moments, jcal_constraint
 /* The moments contracted with the pairs on both sides: a 3 x 3 form in u, packed. */
 static void form_in_u(const float *m, const float *pairs, float *out)
 {
-    jcal_sym_zero(out, 3u);
+    float o00 = 0.0f, o10 = 0.0f, o11 = 0.0f, o20 = 0.0f, o21 = 0.0f, o22 = 0.0f;
     for (size_t a = 0u; a < PAIRS; ++a) {
-        float sum[3][3] = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
+        const float *const r0 = row_of(m, 3u * a, 0u);
+        const float *const r1 = row_of(m, (3u * a) + 1u, 0u);
+        const float *const r2 = row_of(m, (3u * a) + 2u, 0u);
         for (size_t b = 0u; b < a; ++b) {
-            for (size_t p = 0u; p < 3u; ++p) {
-                add3(sum[p], 2.0f * pairs[b], row_of(m, (3u * a) + p, 3u * b));
-            }
+            const size_t q = 3u * b;
+            const float weight = pairs[a] * pairs[b];
+            const float twice = weight + weight;
+            o00 += twice * r0[q];
+            o11 += twice * r1[q + 1u];
+            o22 += twice * r2[q + 2u];
+            o10 += weight * (r1[q] + r0[q + 1u]);
+            o20 += weight * (r2[q] + r0[q + 2u]);
+            o21 += weight * (r2[q + 1u] + r1[q + 2u]);
         }
-        const block_t own = block_diagonal(m, a);
-        for (size_t p = 0u; p < 3u; ++p) {
-            add3(sum[p], pairs[a], own.at[p]);
-        }
-        for (size_t p = 0u; p < 3u; ++p) {
-            for (size_t q = 0u; q <= p; ++q) {
-                out[jcal_sym_at(p, q)] += 0.5f * pairs[a] * (sum[p][q] + sum[q][p]);
-            }
-        }
+        const size_t q = 3u * a;
+        const float weight = pairs[a] * pairs[a];
+        o00 += weight * r0[q];
+        o10 += weight * r1[q];
+        o11 += weight * r1[q + 1u];
+        o20 += weight * r2[q];
+        o21 += weight * r2[q + 1u];
+        o22 += weight * r2[q + 2u];
     }
+    out[0] = o00;
+    out[1] = o10;
+    out[2] = o11;
+    out[3] = o20;
+    out[4] = o21;
+    out[5] = o22;
 }
 
 void jcal_two_dof_costs(const jcal_two_dof_moments_t *moments, jcal_constraint_t constraint,
@@ -409,7 +414,6 @@ void jcal_two_dof_fade(jcal_two_dof_moments_t *moments, float share)
 
 float jcal_two_dof_mean(const jcal_two_dof_moments_t *moments, const jcal_two_dof_point_t *point)
 {
-    float slope[JCAL_TWO_DOF_UNKNOWNS];
-    const float sum = mean_of(moments->mean, point, slope);
+    const float sum = jcal_two_dof_value(moments->mean, point);
     return (moments->weight > 0.0f) ? (sum / moments->weight) : 0.0f;
 }

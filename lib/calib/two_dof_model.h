@@ -33,7 +33,7 @@ typedef struct {
 
 /// Features F (27) and G (27), index (3 i + k) 3 + m. Cost: about 200 multiply-adds each.
 void jcal_two_dof_rotation_features(const jcal_two_dof_sample_t *sample, float *f);
-void jcal_two_dof_orientation_features(const jcal_two_dof_sample_t *sample, float *g);
+void jcal_two_dof_orientation_features(jcal_quat_t q1, jcal_quat_t q2, float *g);
 
 /// features . phi. Cost: 36 multiply-adds.
 float jcal_two_dof_value(const float *features, const jcal_two_dof_point_t *point);

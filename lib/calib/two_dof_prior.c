@@ -31,46 +31,65 @@ static view_t view_of(jcal_vec3_t anchor, jcal_vec3_t j)
     return view;
 }
 
-/* Offsets (4) and slopes (4 x 4, row-major, two blocks). */
-static void look(const jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point, float *offset, float *slope)
+/* out (2) <- S' v */
+static void slope_times(const view_t *view, const float *v, float *out)
 {
-    const view_t view1 = view_of(prior->j1, point->j1);
-    const view_t view2 = view_of(prior->j2, point->j2);
-    for (size_t i = 0u; i < (TILTS * TILTS); ++i) {
-        slope[i] = 0.0f;
-    }
+    out[0] = (view->slope[0][0] * v[0]) + (view->slope[1][0] * v[1]);
+    out[1] = (view->slope[0][1] * v[0]) + (view->slope[1][1] * v[1]);
+}
+
+/* out (2 x 2) <- left' block right, the block of the packed 4 x 4 matrix m whose first element is (row, column) */
+static void turn_block(const float *m, size_t row, const view_t *left, size_t column, const view_t *right,
+                       float out[2][2])
+{
+    float on[2][2]; /* rows of the block times the right slope */
     for (size_t i = 0u; i < 2u; ++i) {
-        offset[i] = view1.offset[i];
-        offset[i + 2u] = view2.offset[i];
-        for (size_t k = 0u; k < 2u; ++k) {
-            slope[(i * TILTS) + k] = view1.slope[i][k];
-            slope[((i + 2u) * TILTS) + k + 2u] = view2.slope[i][k];
-        }
+        const float block[2] = {m[jcal_sym_at(row + i, column)], m[jcal_sym_at(row + i, column + 1u)]};
+        slope_times(right, block, on[i]);
     }
+    for (size_t k = 0u; k < 2u; ++k) {
+        const float v[2] = {on[0][k], on[1][k]};
+        float column_of[2];
+        slope_times(left, v, column_of);
+        out[0][k] = column_of[0];
+        out[1][k] = column_of[1];
+    }
+}
+
+/* Cost, and half the gradient (4) in the tilts at the place of the views. */
+static float slope_of(const jcal_two_dof_prior_t *prior, const view_t *view1, const view_t *view2, float *gradient)
+{
+    const float offset[TILTS] = {view1->offset[0], view1->offset[1], view2->offset[0], view2->offset[1]};
+    float on[TILTS];
+    float cost = 0.0f;
+    jcal_sym_times(prior->matrix, TILTS, offset, on);
+    for (size_t i = 0u; i < TILTS; ++i) {
+        cost += offset[i] * (on[i] + (2.0f * prior->gradient[i]));
+        on[i] += prior->gradient[i];
+    }
+    slope_times(view1, &on[0], &gradient[0]);
+    slope_times(view2, &on[2], &gradient[2]);
+    return cost;
 }
 
 /* Cost, half gradient (4) and matrix (4 x 4, packed) in the tilts at `point`. */
 static float view_prior(const jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point, float *gradient,
                         float *matrix)
 {
-    float offset[TILTS];
-    float slope[TILTS * TILTS];
-    float on[TILTS];
-    look(prior, point, offset, slope);
-    jcal_sym_times(prior->matrix, TILTS, offset, on);
-    float cost = 0.0f;
-    for (size_t i = 0u; i < TILTS; ++i) {
-        cost += offset[i] * (on[i] + (2.0f * prior->gradient[i]));
-        on[i] += prior->gradient[i];
+    const view_t view1 = view_of(prior->j1, point->j1);
+    const view_t view2 = view_of(prior->j2, point->j2);
+    float first[2][2];
+    float cross[2][2];
+    float second[2][2];
+    turn_block(prior->matrix, 0u, &view1, 0u, &view1, first);
+    turn_block(prior->matrix, 2u, &view2, 0u, &view1, cross);
+    turn_block(prior->matrix, 2u, &view2, 2u, &view2, second);
+    const float packed[JCAL_SYM_SIZE(TILTS)] = {first[0][0],  first[1][0], first[1][1], cross[0][0],  cross[0][1],
+                                                second[0][0], cross[1][0], cross[1][1], second[1][0], second[1][1]};
+    for (size_t i = 0u; i < JCAL_SYM_SIZE(TILTS); ++i) {
+        matrix[i] = packed[i];
     }
-    for (size_t k = 0u; k < TILTS; ++k) {
-        gradient[k] = 0.0f;
-        for (size_t i = 0u; i < TILTS; ++i) {
-            gradient[k] += slope[(i * TILTS) + k] * on[i];
-        }
-    }
-    jcal_sym_congruence(prior->matrix, TILTS, slope, TILTS, matrix);
-    return cost;
+    return slope_of(prior, &view1, &view2, gradient);
 }
 
 void jcal_two_dof_prior_apply(const jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point,
@@ -89,9 +108,10 @@ void jcal_two_dof_prior_apply(const jcal_two_dof_prior_t *prior, const jcal_two_
 
 float jcal_two_dof_prior_cost(const jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point)
 {
+    const view_t view1 = view_of(prior->j1, point->j1);
+    const view_t view2 = view_of(prior->j2, point->j2);
     float gradient[TILTS];
-    float matrix[JCAL_SYM_SIZE(TILTS)];
-    return view_prior(prior, point, gradient, matrix);
+    return slope_of(prior, &view1, &view2, gradient);
 }
 
 void jcal_two_dof_prior_take(jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point,

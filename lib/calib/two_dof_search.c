@@ -41,7 +41,7 @@
 #define BETTER 1.0f
 
 /// Turns of the cycle.
-enum { TURN_TRACK = 0, TURN_JUDGE = 1, TURN_RIVAL = 2, TURN_PROBE = 3, TURNS = 7 };
+enum { TURN_TRACK = 0, TURN_JUDGE = 1, TURN_FADE = 2, TURN_DRIFT = 3, TURN_RIVAL = 4, TURN_PROBE = 5, TURNS = 9 };
 
 static jcal_vec3_t line_of(unsigned which)
 {
@@ -195,30 +195,32 @@ static void adopt(jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
     self->verdict.reason = (uint8_t)JCAL_REASON_UNCERTAIN;
 }
 
-/// Files what a finished probe found: the estimate itself, a better minimum or a rival. `cost` is that at the end of the probe.
+/// Files what a finished probe found: the estimate itself, a better minimum or a rival. Its cost is that of its last linearisation
+/// and what its last step promised.
 static void file_probe(jcal_two_dof_t *self)
 {
     jcal_two_dof_search_t *const search = &self->search;
     const jcal_two_dof_point_t *const point = &search->probe.point;
+    const float cost = search->lin.cost + (2.0f * search->probe.predicted);
     search->tried = (uint8_t)((search->tried < UINT8_MAX) ? (search->tried + 1u) : UINT8_MAX);
     search->probing = false;
     if (!self->has_best) {
         adopt(self, point);
-        search->cost = cost_at(self, point);
+        search->cost = cost;
         return;
     }
-    const float cost = cost_at(self, point);
-    search->cost = cost_at(self, &self->best.point);
     const bool better = cost < (search->cost - BETTER);
     if (within(&self->best.point, point, SAME_COSINE)) {
         if (better) {
             begin(&self->best, point);
         }
     } else if (better) {
-        search->rival = self->best.point;
-        search->rival_cost = search->cost;
-        search->has_rival = true;
+        const jcal_two_dof_point_t rival = self->best.point;
+        const float rival_cost = search->cost;
         adopt(self, point);
+        search->rival = rival;
+        search->rival_cost = rival_cost;
+        search->has_rival = self->has_best;
         search->cost = cost;
     } else if (!search->has_rival || (cost < search->rival_cost)) {
         search->rival = *point;
@@ -296,6 +298,14 @@ void jcal_two_dof_work(jcal_two_dof_t *self)
         break;
     case TURN_JUDGE:
         jcal_two_dof_judge(self);
+        search->turn = jcal_two_dof_fade_is_due(self) ? TURN_FADE : TURN_RIVAL;
+        break;
+    case TURN_FADE:
+        jcal_two_dof_fade_now(self);
+        search->turn = TURN_DRIFT;
+        break;
+    case TURN_DRIFT:
+        jcal_two_dof_follow_drift(self);
         search->turn = TURN_RIVAL;
         break;
     case TURN_RIVAL:

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: MIT */
-/* Replays samples through a hinge engine and prints a hash of every result, on the host and on a target.
+/* Replays samples through an engine and prints a hash of every result, on the host and on a target.
  *
- * Reads `samples.bin` (records laid out like jcal_pair_t, little endian) from the working directory; on a target that is
+ * Reads `samples.bin` (records laid out like jcal_pair_t or jcal_orientation_pair_t, little endian) from the working directory; on a target that is
  * a file of the host, by semihosting. Equal hashes mean equal bits of every field of every result. The functions
  * replay_mark_* tell tools/budget.py's instruction counter where a call begins and ends.
  *
- * Compile definitions: REPLAY_WINDOW (window engine, N_max 125), REPLAY_SIXTEEN (sixteen stream engines, one call is the
+ * Compile definitions: REPLAY_TWO_DOF (stream engine of the 2-DoF joint; otherwise that of the hinge), REPLAY_WINDOW (window engine, N_max 125), REPLAY_SIXTEEN (sixteen stream engines, one call is the
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
  * the stack before every call and print how deep the deepest one went). */
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_window.h"
+#include "jointcal/two_dof.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -20,9 +21,25 @@ enum { CHUNK = 64, N_MAX = 125, PAINT_WORDS = 1024 };
 #define PAINT 0xC5A3C5A3u
 
 typedef char pair_has_no_padding[(sizeof(jcal_pair_t) == 56) ? 1 : -1];
+typedef char orientations_have_no_padding[(sizeof(jcal_orientation_pair_t) == 40) ? 1 : -1];
 
-static jcal_pair_t chunk[CHUNK];
+#ifdef REPLAY_TWO_DOF
+typedef jcal_orientation_pair_t sample_t;
+typedef jcal_two_dof_result_t result_t;
+static jcal_two_dof_t replayed;
+#define engine_push jcal_two_dof_push
+#define engine_step jcal_two_dof_step
+#define engine_update jcal_two_dof_update
+#define engine_get jcal_two_dof_get
 
+static jcal_status_t engine_init(void)
+{
+    const jcal_two_dof_config_t config = jcal_two_dof_config_default();
+    return jcal_two_dof_init(&replayed, &config);
+}
+#else
+typedef jcal_pair_t sample_t;
+typedef jcal_hinge_result_t result_t;
 #ifdef REPLAY_WINDOW
 static jcal_hinge_window_t replayed;
 static float storage[JCAL_HINGE_WINDOW_STORAGE_BYTES(N_MAX, 21) / sizeof(float) + 1u];
@@ -69,6 +86,9 @@ static jcal_status_t engine_init(void)
     return status;
 }
 #endif
+#endif
+
+static sample_t chunk[CHUNK];
 
 /* Places that the instruction counter knows by name; the volatile keeps them apart and alive. */
 extern volatile int replay_place;
@@ -94,7 +114,7 @@ __attribute__((noinline)) void replay_mark_end(void)
     replay_place = 0;
 }
 
-static __attribute__((noinline)) void call_engine(const jcal_pair_t *pair)
+static __attribute__((noinline)) void call_engine(const sample_t *pair)
 {
 #ifdef REPLAY_SPLIT
     replay_mark_push();
@@ -112,7 +132,7 @@ static __attribute__((noinline)) void call_engine(const jcal_pair_t *pair)
 
 #ifdef REPLAY_STACK
 /* The words below this function's frame; nothing else uses them between the two calls, and no interrupt is on. */
-static __attribute__((noinline)) uint32_t call_and_measure(const jcal_pair_t *pair)
+static __attribute__((noinline)) uint32_t call_and_measure(const sample_t *pair)
 {
     volatile uint32_t *const top = (volatile uint32_t *)__builtin_frame_address(0) - 16;
     for (int k = 0; k < PAINT_WORDS; ++k) {
@@ -128,7 +148,7 @@ static __attribute__((noinline)) uint32_t call_and_measure(const jcal_pair_t *pa
     return 4u * (deepest + 16u);
 }
 #else
-static uint32_t call_and_measure(const jcal_pair_t *pair)
+static uint32_t call_and_measure(const sample_t *pair)
 {
     call_engine(pair);
     return 0;
@@ -154,20 +174,45 @@ static uint64_t hash_f32(uint64_t hash, float value)
     return hash_u64(hash, bits, 4);
 }
 
-static uint64_t hash_result(uint64_t hash, const jcal_hinge_result_t *r)
+#ifdef REPLAY_TWO_DOF
+static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {
-    const uint32_t words[] = {(uint32_t)r->status,         (uint32_t)r->engine, (uint32_t)r->weak,
-                              (uint32_t)r->hint,           (uint32_t)r->reason, r->has_axes ? 1u : 0u,
-                              r->paper_accepted ? 1u : 0u, r->samples,          r->rejected};
+    const float floats[] = {r->axis1.x,
+                            r->axis1.y,
+                            r->axis1.z,
+                            r->axis2.x,
+                            r->axis2.y,
+                            r->axis2.z,
+                            r->heading_offset_rad,
+                            r->carrying_angle_rad,
+                            r->uncertainty1_rad,
+                            r->uncertainty2_rad,
+                            r->uncertainty_heading_rad,
+                            r->progress_axis1,
+                            r->progress_axis2,
+                            r->progress_heading};
+#else
+static uint64_t hash_floats(uint64_t hash, const result_t *r)
+{
+    hash = hash_u64(hash, r->paper_accepted ? 1u : 0u, 4);
     const float floats[] = {r->axis1.x,     r->axis1.y,        r->axis1.z,          r->axis2.x,
                             r->axis2.y,     r->axis2.z,        r->uncertainty1_rad, r->uncertainty2_rad,
                             r->sign_margin, r->progress_axis1, r->progress_axis2,   r->progress_sign};
-    for (size_t k = 0; k < sizeof(words) / sizeof(words[0]); ++k) {
-        hash = hash_u64(hash, words[k], 4);
-    }
+#endif
     for (size_t k = 0; k < sizeof(floats) / sizeof(floats[0]); ++k) {
         hash = hash_f32(hash, floats[k]);
     }
+    return hash;
+}
+
+static uint64_t hash_result(uint64_t hash, const result_t *r)
+{
+    const uint32_t words[] = {(uint32_t)r->status, (uint32_t)r->engine,   (uint32_t)r->weak, (uint32_t)r->hint,
+                              (uint32_t)r->reason, r->has_axes ? 1u : 0u, r->samples,        r->rejected};
+    for (size_t k = 0; k < sizeof(words) / sizeof(words[0]); ++k) {
+        hash = hash_u64(hash, words[k], 4);
+    }
+    hash = hash_floats(hash, r);
     for (int k = 0; k < JCAL_REJECT_COUNT; ++k) {
         hash = hash_u64(hash, r->rejected_by[k], 4);
     }
@@ -184,7 +229,7 @@ int main(void)
     uint64_t hash = UINT64_C(0xCBF29CE484222325);
     uint32_t samples = 0;
     uint32_t stack = 0;
-    jcal_hinge_result_t result;
+    result_t result;
     for (size_t count = fread(chunk, sizeof(chunk[0]), CHUNK, file); count > 0;
          count = fread(chunk, sizeof(chunk[0]), CHUNK, file)) {
         for (size_t k = 0; k < count; ++k) {
