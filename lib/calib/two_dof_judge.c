@@ -77,8 +77,8 @@ static float radius(float a, float b, float c)
 static bounds_t bounds_of(const jcal_two_dof_t *self)
 {
     bounds_t bounds = {UNKNOWN_RAD, UNKNOWN_RAD, UNKNOWN_RAD};
-    jcal_two_dof_lin_t all = self->search.lin;
-    jcal_two_dof_prior_apply(&self->prior, &self->best.point, &all);
+    jcal_two_dof_lin_t all;
+    jcal_two_dof_prior_apply(&self->prior, &self->best.point, &self->search.lin, &all);
     float scale[JCAL_TWO_DOF_UNKNOWNS];
     float inverse[JCAL_SYM_SIZE(JCAL_TWO_DOF_UNKNOWNS)];
     jcal_chol_scale(all.matrix, JCAL_TWO_DOF_UNKNOWNS, scale);

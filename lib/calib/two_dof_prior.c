@@ -93,16 +93,20 @@ static float view_prior(const jcal_two_dof_prior_t *prior, const jcal_two_dof_po
 }
 
 void jcal_two_dof_prior_apply(const jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point,
-                              jcal_two_dof_lin_t *lin)
+                              const jcal_two_dof_lin_t *lin, jcal_two_dof_lin_t *all)
 {
     float gradient[TILTS];
     float matrix[JCAL_SYM_SIZE(TILTS)];
-    lin->cost += view_prior(prior, point, gradient, matrix);
+    all->cost = lin->cost + view_prior(prior, point, gradient, matrix);
     for (size_t i = 0u; i < TILTS; ++i) {
-        lin->gradient[i] += gradient[i];
+        all->gradient[i] = lin->gradient[i] + gradient[i];
     }
+    all->gradient[TILTS] = lin->gradient[TILTS];
     for (size_t i = 0u; i < JCAL_SYM_SIZE(TILTS); ++i) {
-        lin->matrix[i] += matrix[i];
+        all->matrix[i] = lin->matrix[i] + matrix[i];
+    }
+    for (size_t i = JCAL_SYM_SIZE(TILTS); i < JCAL_SYM_SIZE(JCAL_TWO_DOF_UNKNOWNS); ++i) {
+        all->matrix[i] = lin->matrix[i];
     }
 }
 

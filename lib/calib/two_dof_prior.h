@@ -10,9 +10,9 @@
 
 #include "calib/two_dof_point.h"
 
-/// lin <- lin + the prior's cost, gradient and matrix at `point`.
+/// all <- lin + the prior's cost, gradient and matrix at `point`; `all` may be `lin`.
 void jcal_two_dof_prior_apply(const jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point,
-                              jcal_two_dof_lin_t *lin);
+                              const jcal_two_dof_lin_t *lin, jcal_two_dof_lin_t *all);
 
 /// Cost alone.
 float jcal_two_dof_prior_cost(const jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point);

@@ -250,7 +250,7 @@ static void probe(jcal_two_dof_t *self)
         return;
     } else {
         second_half(self, point, NULL);
-        jcal_two_dof_prior_apply(&self->prior, point, &search->lin);
+        jcal_two_dof_prior_apply(&self->prior, point, &search->lin, &search->lin);
         const float length = advance(self);
         search->probe.steps = (uint8_t)(search->probe.steps + 1u);
         const bool ended = (length < STEP_MIN_RAD) || (search->probe.steps >= PROBE_STEPS) || is_hopeless(self);
@@ -269,8 +269,8 @@ static void track(jcal_two_dof_t *self)
         return;
     }
     second_half(self, &self->best.point, search->parts);
-    jcal_two_dof_lin_t all = search->lin;
-    jcal_two_dof_prior_apply(&self->prior, &self->best.point, &all);
+    jcal_two_dof_lin_t all;
+    jcal_two_dof_prior_apply(&self->prior, &self->best.point, &search->lin, &all);
     jcal_gn_t gn = jcal_gn_begin();
     float d[JCAL_TWO_DOF_UNKNOWNS];
     (void)make_step(&self->best, &gn, &all, d);
