@@ -65,6 +65,7 @@ static void weak_and_hint_are_null_for_none_and_words_otherwise(void)
     TEST_ASSERT_EQUAL_STRING("axis1", jcal_weak_string(JCAL_WEAK_AXIS1));
     TEST_ASSERT_EQUAL_STRING("axis2", jcal_weak_string(JCAL_WEAK_AXIS2));
     TEST_ASSERT_EQUAL_STRING("sign", jcal_weak_string(JCAL_WEAK_SIGN));
+    TEST_ASSERT_EQUAL_STRING("heading", jcal_weak_string(JCAL_WEAK_HEADING));
     TEST_ASSERT_NULL(jcal_hint_string(JCAL_HINT_NONE));
     TEST_ASSERT_EQUAL_STRING("move_joint", jcal_hint_string(JCAL_HINT_MOVE_JOINT));
     TEST_ASSERT_EQUAL_STRING("move_segment1", jcal_hint_string(JCAL_HINT_MOVE_SEGMENT1));
@@ -117,7 +118,7 @@ static void the_first_number_after_each_enumeration_is_unknown(void)
 {
     TEST_ASSERT_EQUAL_STRING("unknown", jcal_calibration_string((jcal_calibration_t)4));
     TEST_ASSERT_EQUAL_STRING("unknown", jcal_engine_string((jcal_engine_t)2));
-    TEST_ASSERT_NULL(jcal_weak_string((jcal_weak_t)4));
+    TEST_ASSERT_NULL(jcal_weak_string((jcal_weak_t)5));
     TEST_ASSERT_NULL(jcal_hint_string((jcal_hint_t)6));
     TEST_ASSERT_NULL(jcal_reason_string((jcal_reason_t)10));
 }

@@ -10,6 +10,7 @@
 #include "jointcal/inbox.h"
 #include "jointcal/status.h"
 #include "jointcal/types.h"
+#include "jointcal/watch.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -185,6 +186,7 @@ typedef struct {
     jcal_hinge_refine_t refine;
     jcal_hinge_search_t search;
     jcal_hinge_verdict_t verdict;
+    jcal_watch_t watch;     ///< Of the gyroscopes' residual and the accelerometers'.
     jcal_vec3_t rest_acc1;  ///< Specific forces at which the present dwelling began ...
     jcal_vec3_t rest_acc2;
     float dwell_s;       ///< ... and how long it has lasted.

@@ -9,6 +9,7 @@
 
 #include "jointcal/orientation.h"
 #include "jointcal/status.h"
+#include "jointcal/watch.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -111,7 +112,6 @@ typedef struct {
     jcal_two_dof_point_t rival;  ///< Best other minimum.
     jcal_two_dof_lin_t lin;      ///< Of the point that is being worked on, rotation-based part first.
     float parts[2];              ///< Of the cost at the estimate: rotation-based, orientation-based ...
-    float usual[2];              ///< ... and what they were while the calibration was ready.
     float cost;                  ///< Cost of the estimate, prior included ...
     float rival_cost;            ///< ... and of the rival.
     uint8_t turn;                ///< Next item of the cycle.
@@ -129,7 +129,7 @@ typedef struct {
     float bound_heading_rad;
     float sine;  ///< Mean of the orientation-based constraint: sine of the carrying angle.
     float
-        excess;  ///< Residuals, squared, over what the config takes for usual; at least 1. Divides the data's information.
+        excess;  ///< Residuals, squared, over what the config takes for usual, at least 1: divides the data's information.
     uint8_t status, weak, hint, reason;  ///< As in jcal_two_dof_result_t.
 } jcal_two_dof_verdict_t;
 
@@ -160,10 +160,7 @@ typedef struct {
     float time_s;  ///< Weight of the sample that is being summed, s: its time, less if there is little motion.
     bool odd;      ///< Every other sample, once the status is ready, gets a slice of the search.
     bool has_best;
-    bool calibrated;  ///< Ready was reached with this estimate: from now on a misfit means that a sensor has moved.
-    float recent
-        [2];  ///< Squared residuals over the usual of the last second of motion: rotation-based, orientation-based ...
-    float usual[2];  ///< ... and what they were while the calibration was ready.
+    jcal_watch_t watch;  ///< Of the rotation-based and the orientation-based residual.
 } jcal_two_dof_t;
 
 /// The defaults described at each field.

@@ -9,15 +9,16 @@
 #include "calib/hinge_refine.h"
 #include "calib/hinge_search.h"
 #include "calib/hinge_stream.h"
+#include "calib/watch.h"
 #include "jointcal/vec3.h"
 #include "math/scalar.h"
 #include "math/solve.h"
 #include "math/sym.h"
 #include "sample/inbox.h"
 
-#include <float.h>
 #include <math.h>
 #include <stddef.h>
+#include <string.h>
 
 #define MICROSECONDS 1e-6f
 #define DEGREE 0.0174532925f
@@ -44,6 +45,12 @@
 /// Errors in |w1| - |w2| that no joint motion causes: scale errors as a share of the rate, and noise, rad/s.
 #define DIFFERENCE_SHARE 0.03f
 #define DIFFERENCE_NOISE_RAD_S 0.02f
+
+/// Growth of the usual residual of the rates with them, squared: scale and misalignment of the gyroscopes.
+#define RATE_SHARE2 4e-4f
+
+/// Share of the accelerometers' assumed variance that changes within a second; the rest, biases say, is there all the time.
+#define WATCH_ACC_SHARE 0.3f
 
 /// Sums are halved when they reach this: half an hour at 1 rad/s, four minutes at 3 rad/s, rad^2/s. One more sample then changes a
 /// sum by 2^-17 of itself, a hundred times what float32 resolves.
@@ -106,18 +113,26 @@ const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
     return jcal_gate_config_check(&config->gate);
 }
 
-void jcal_hinge_start(jcal_hinge_t *self, const jcal_hinge_config_t *config)
+/// Empties what was learnt of the joint: all that follows the inbox. Push, which may preempt this, does not touch it.
+static void clear(jcal_hinge_t *self)
 {
-    const jcal_hinge_config_t cfg = *config; /* the caller may hand over self->cfg */
-    *self = (jcal_hinge_t){0};
-    self->cfg = cfg;
-    jcal_gate_init(&self->gate);
+    const size_t first = offsetof(jcal_hinge_t, moments);
+    (void)memset((unsigned char *)self + first, 0, sizeof *self - first);
     self->damping = JCAL_GN_DAMPING_START;
     self->verdict.bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
     self->verdict.bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
     self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
     self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
     self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+}
+
+void jcal_hinge_start(jcal_hinge_t *self, const jcal_hinge_config_t *config)
+{
+    const jcal_hinge_config_t cfg = *config; /* the caller may hand over self->cfg */
+    (void)memset(self, 0, sizeof *self);
+    self->cfg = cfg;
+    jcal_gate_init(&self->gate);
+    clear(self);
 }
 
 jcal_status_t jcal_hinge_init(jcal_hinge_t *self, const jcal_hinge_config_t *config)
@@ -212,6 +227,32 @@ static void halve(jcal_hinge_t *self)
     self->weight_acc2 *= 0.5f;
 }
 
+/// Residuals of this sample at the refined axes, (24) and (25) of [OLS20], in units of what is usual.
+static void watch_fit(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+{
+    const jcal_vec3_t j1 = self->refine.point.axis1.j;
+    const jcal_vec3_t j2 = self->refine.point.axis2.j;
+    const float rate2 = sample->w1_2 + sample->w2_2;
+    const float motion_s = sample->dt_s * jcal_watch_motion(rate2);
+    const float gyr = jcal_vec3_norm(jcal_vec3_cross(sample->w1, j1)) - jcal_vec3_norm(jcal_vec3_cross(sample->w2, j2));
+    const float acc = jcal_vec3_dot(sample->a1, j1) - jcal_vec3_dot(sample->a2, j2) - self->acc_constant_m_s2;
+    const float noise = self->cfg.gyr_noise_rad_s;
+    const float violation = self->cfg.lever_arm_m * self->rate_product;
+    const float acc_variance = (self->cfg.acc_noise_m_s2 * self->cfg.acc_noise_m_s2) + (violation * violation);
+    jcal_watch_add(&self->watch, 0u, gyr * gyr / ((noise * noise) + (RATE_SHARE2 * rate2)), motion_s);
+    jcal_watch_add(&self->watch, 1u, acc * acc / (WATCH_ACC_SHARE * acc_variance), motion_s);
+}
+
+/// A sensor has moved: what was learnt of the joint is void.
+static void begin_anew(jcal_hinge_t *self)
+{
+    const uint64_t last_us = self->last_us;
+    clear(self);
+    self->last_us = last_us;
+    self->has_last = true;
+    self->verdict.status = (uint8_t)JCAL_MOVED;
+}
+
 static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
 {
     watch(self, sample);
@@ -228,6 +269,7 @@ static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
         jcal_hinge_refine_interrupt(&self->refine);
     } else if (self->has_point) {
         self->credit_s -= jcal_hinge_refine_add(self, sample) ? (CLOSE_SLICES * SLICE_S) : 0.0f;
+        watch_fit(self, sample);
     } else {
         /* nothing to refine yet */
     }
@@ -275,6 +317,13 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
     const float dt_s = jcal_min(since_s, STEP_MAX_S);
     const jcal_hinge_sample_t sample = weigh(self, pair, dt_s);
     sum_up(self, &sample);
+    if (self->verdict.status == (uint8_t)JCAL_READY) {
+        jcal_watch_start(&self->watch);
+    }
+    if (jcal_watch_alarm(&self->watch)) {
+        begin_anew(self);
+        return;
+    }
     self->credit_s = jcal_min(self->credit_s + dt_s, (float)SLICES_MAX * SLICE_S);
     for (unsigned i = 0u; i < SLICES_MAX; ++i) {
         const float price_s = (self->verdict.status == (uint8_t)JCAL_READY) ? SLICE_READY_S : SLICE_S;
@@ -306,54 +355,4 @@ jcal_status_t jcal_hinge_update(jcal_hinge_t *self, const jcal_pair_t *pair)
     }
     const jcal_status_t pushed = jcal_hinge_push(self, pair);
     return (pushed == JCAL_OK) ? jcal_hinge_step(self) : pushed;
-}
-
-static float progress(float bound_rad, float max_bound_rad)
-{
-    return jcal_min(1.0f, max_bound_rad / jcal_max(bound_rad, FLT_MIN));
-}
-
-static void tell_verdict(const jcal_hinge_t *self, jcal_hinge_result_t *result)
-{
-    const jcal_hinge_verdict_t *const verdict = &self->verdict;
-    result->status = (jcal_calibration_t)verdict->status;
-    result->weak = (jcal_weak_t)verdict->weak;
-    result->hint = (jcal_hint_t)verdict->hint;
-    result->reason = (jcal_reason_t)verdict->reason;
-    result->uncertainty1_rad = verdict->bound1_rad;
-    result->uncertainty2_rad = verdict->bound2_rad;
-    result->sign_margin = verdict->sign_margin;
-    result->progress_axis1 = progress(verdict->bound1_rad, self->cfg.max_bound_rad);
-    result->progress_axis2 = progress(verdict->bound2_rad, self->cfg.max_bound_rad);
-    result->progress_sign = (self->cfg.sign_hint != JCAL_SIGN_UNKNOWN) ? 1.0f : verdict->sign_progress;
-    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
-    if (complaint != JCAL_REASON_NONE) { /* a sensor that fails sends nothing that a judgement would follow */
-        result->status = JCAL_COLLECTING;
-        result->reason = complaint;
-        result->hint = JCAL_HINT_CHECK_SENSORS;
-    }
-}
-
-jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
-{
-    if ((self == NULL) || (out == NULL)) {
-        return JCAL_ERR_ARG;
-    }
-    jcal_hinge_result_t result = {0};
-    result.engine = JCAL_ENGINE_STREAM;
-    tell_verdict(self, &result);
-    result.has_axes = self->has_point;
-    if (self->has_point) {
-        const float sign = jcal_hinge_main_sign(self->refine.point.axis1.j);
-        result.axis1 = jcal_vec3_scale(self->refine.point.axis1.j, sign);
-        result.axis2 = jcal_vec3_scale(self->refine.point.axis2.j, sign);
-    }
-    result.t_us = self->last_us;
-    result.samples = self->gate.samples;
-    for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
-        result.rejected_by[i] = self->gate.rejected_by[i];
-        result.rejected += self->gate.rejected_by[i];
-    }
-    *out = result;
-    return JCAL_OK;
 }

@@ -202,7 +202,9 @@ static void report(jcal_hinge_t *self, jcal_reason_t found, const jcal_hinge_bou
     const jcal_reason_t reason = (!ready && (found == JCAL_REASON_NONE)) ? JCAL_REASON_UNCERTAIN : found;
     const bool ambiguous = (reason == JCAL_REASON_SIGN_OPEN) || (reason == JCAL_REASON_OTHER_MINIMUM);
     const jcal_weak_t weak = weak_for(self, reason, bounds);
-    verdict->status = (uint8_t)(ready ? JCAL_READY : (ambiguous ? JCAL_AMBIGUOUS : JCAL_COLLECTING));
+    if ((verdict->status != (uint8_t)JCAL_MOVED) || (self->search.rounds > 0u)) { /* there is something new to say */
+        verdict->status = (uint8_t)(ready ? JCAL_READY : (ambiguous ? JCAL_AMBIGUOUS : JCAL_COLLECTING));
+    }
     verdict->reason = (uint8_t)reason;
     verdict->weak = (uint8_t)weak;
     verdict->hint = (uint8_t)hint_for(reason, weak);

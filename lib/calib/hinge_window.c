@@ -98,6 +98,17 @@ size_t jcal_hinge_window_storage_bytes(const jcal_hinge_window_config_t *config)
     return JCAL_HINGE_WINDOW_STORAGE_BYTES(config->n_max, config->half_window);
 }
 
+/* No samples are selected, and nothing is concluded from them. */
+static void empty(jcal_hinge_window_t *self)
+{
+    const jcal_hinge_window_config_t *const cfg = &self->cfg;
+    jcal_score_init(&self->score, cfg->half_window);
+    jcal_select_gyr_init(&self->gyr, cfg->n_max);
+    jcal_select_acc_init(&self->acc, cfg->n_max, cfg->acc_min, cfg->energy_max_rad2_s2);
+    self->has_axes = false;
+    jcal_hinge_window_solve_reset(self);
+}
+
 /* Everything but config and storage as it was at the beginning. */
 static void forget(jcal_hinge_window_t *self)
 {
@@ -107,10 +118,7 @@ static void forget(jcal_hinge_window_t *self)
     self->cfg = cfg;
     self->storage = storage;
     jcal_hinge_start(&self->guard, &cfg.hinge);
-    jcal_score_init(&self->score, cfg.half_window);
-    jcal_select_gyr_init(&self->gyr, cfg.n_max);
-    jcal_select_acc_init(&self->acc, cfg.n_max, cfg.acc_min, cfg.energy_max_rad2_s2);
-    jcal_hinge_window_solve_reset(self);
+    empty(self);
 }
 
 jcal_status_t jcal_hinge_window_init(jcal_hinge_window_t *self, const jcal_hinge_window_config_t *config, void *storage,
@@ -209,7 +217,11 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
     for (uint32_t slice = 0u; slice < JCAL_HINGE_WINDOW_SLICES; ++slice) {
         jcal_hinge_window_solve_slice(self, &rows);
     }
+    const bool knew = self->guard.has_point;
     jcal_hinge_consume(&self->guard, &pair);
+    if (knew && !self->guard.has_point) { /* a sensor has moved: what was selected is of another joint */
+        empty(self);
+    }
     return JCAL_OK;
 }
 
@@ -271,7 +283,7 @@ jcal_status_t jcal_hinge_window_get(const jcal_hinge_window_t *self, jcal_hinge_
     if (result.has_axes) {
         judge_beside_guard(self, &result);
     } else {
-        result.status = JCAL_COLLECTING;
+        result.status = (result.status == JCAL_MOVED) ? JCAL_MOVED : JCAL_COLLECTING;
         result.axis1 = jcal_vec3(0.0f, 0.0f, 0.0f);
         result.axis2 = jcal_vec3(0.0f, 0.0f, 0.0f);
     }

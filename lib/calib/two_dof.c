@@ -7,6 +7,7 @@
 #include "calib/two_dof_residual.h"
 #include "calib/two_dof_search.h"
 #include "calib/two_dof_stream.h"
+#include "calib/watch.h"
 #include "jointcal/quat.h"
 #include "math/angle.h"
 #include "math/scalar.h"
@@ -23,15 +24,6 @@
 #define KEEP_US 38000u
 /// Two kept orientations further apart than this have no rate between them, s.
 #define APART_MAX_S 0.12f
-
-/// Squared rates at which a sample counts half: rest tells nothing, (rad/s)^2.
-#define REST_RATE2 0.25f
-
-/// Time of motion over which residuals are averaged to notice that a sensor has moved, s.
-#define RECENT_TIME_S 1.0f
-
-/// A sensor has moved when the residuals of the last second of motion, squared, are this many times what they were.
-#define MOVED_SHARE 12.0f
 
 /// Items of work for one kept sample: both kinds of moments, then slices of the search.
 #define ITEM_ROTATION 0u
@@ -96,7 +88,7 @@ void jcal_two_dof_begin_anew(jcal_two_dof_t *self, jcal_calibration_t status)
     self->moving_s = 0.0f;
     self->since_forgot_s = 0.0f;
     self->has_best = false;
-    self->calibrated = false;
+    (void)memset(&self->watch, 0, sizeof self->watch);
     self->verdict.status = (uint8_t)status;
     self->verdict.bound1_rad = JCAL_HALF_PI;
     self->verdict.bound2_rad = JCAL_HALF_PI;
@@ -193,12 +185,6 @@ static bool middle(const jcal_two_dof_t *self, jcal_two_dof_sample_t *sample, fl
     return true;
 }
 
-/// Averages a squared residual, in units of what is usual, over the last second of motion.
-static void watch(jcal_two_dof_t *self, unsigned item, float square, float time_s)
-{
-    self->recent[item] += (square - self->recent[item]) * (time_s / (time_s + RECENT_TIME_S));
-}
-
 static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float rate2)
 {
     const float time_s = self->time_s;
@@ -207,10 +193,10 @@ static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *samp
         (cfg->rate_noise_rad_s * cfg->rate_noise_rad_s) + (cfg->rate_error * cfg->rate_error * rate2);
     float features[JCAL_TWO_DOF_FEATURES];
     jcal_two_dof_rotation_features(sample, features);
-    if (self->calibrated) {
+    if (self->has_best && (cfg->constraint != JCAL_CONSTRAINT_ORIENTATION)) {
         const float sine = self->verdict.sine;
         const float residual = jcal_two_dof_value(features, &self->best.point);
-        watch(self, ITEM_ROTATION, residual * residual / (variance * (1.0f - (sine * sine))), time_s);
+        jcal_watch_add(&self->watch, ITEM_ROTATION, residual * residual / (variance * (1.0f - (sine * sine))), time_s);
     }
     const float weight = time_s / (JCAL_TWO_DOF_RATE_TIME_S * variance);
     jcal_two_dof_add(self->moments.rotation, features, weight);
@@ -224,24 +210,15 @@ static void add_orientation(jcal_two_dof_t *self, const jcal_orientation_pair_t 
     const float weight = time_s / (JCAL_TWO_DOF_ANGLE_TIME_S * variance);
     float features[JCAL_TWO_DOF_FEATURES];
     jcal_two_dof_orientation_features(pair->q1, pair->q2, features);
-    if (self->calibrated) {
+    if (self->has_best && (cfg->constraint != JCAL_CONSTRAINT_ROTATION)) {
         const float residual = jcal_two_dof_value(features, &self->best.point) - self->verdict.sine;
-        watch(self, ITEM_ORIENTATION, residual * residual / variance, time_s);
+        jcal_watch_add(&self->watch, ITEM_ORIENTATION, residual * residual / variance, time_s);
     }
     jcal_two_dof_add(self->moments.orientation, features, weight);
     for (size_t i = 0u; i < JCAL_TWO_DOF_FEATURES; ++i) {
         self->moments.mean[i] += weight * features[i];
     }
     self->moments.weight += weight;
-}
-
-/// True if the last second of motion does not fit the calibration that was ready.
-static bool has_moved(const jcal_two_dof_t *self)
-{
-    const bool rotation = self->recent[0] > (MOVED_SHARE * self->usual[0]);
-    const bool orientation = self->recent[1] > (MOVED_SHARE * self->usual[1]);
-    return self->calibrated && ((rotation && (self->cfg.constraint != JCAL_CONSTRAINT_ORIENTATION)) ||
-                                (orientation && (self->cfg.constraint != JCAL_CONSTRAINT_ROTATION)));
 }
 
 /// Rotation-based moments of the sample last taken.
@@ -254,7 +231,7 @@ static void sum_rotation(jcal_two_dof_t *self)
         return;
     }
     const float rate2 = jcal_vec3_dot(sample.w1, sample.w1) + jcal_vec3_dot(sample.w2, sample.w2);
-    self->time_s = dt_s * (rate2 / (rate2 + REST_RATE2));
+    self->time_s = dt_s * jcal_watch_motion(rate2);
     self->age_s = (self->age_s + dt_s) * (self->moving_s / (self->moving_s + self->time_s + FLT_MIN));
     self->since_forgot_s += dt_s;
     add_rotation(self, &sample, rate2);
@@ -268,7 +245,7 @@ static void sum_orientation(jcal_two_dof_t *self)
         self->moving_s += self->time_s;
         self->t_us = kept(self, 1u)->t_us;
     }
-    if (self->calibrated && has_moved(self)) {
+    if (jcal_watch_alarm(&self->watch)) {
         jcal_two_dof_begin_anew(self, JCAL_MOVED);
     }
 }

@@ -6,6 +6,7 @@
 #include "calib/two_dof_model.h"
 #include "calib/two_dof_prior.h"
 #include "calib/two_dof_residual.h"
+#include "calib/watch.h"
 #include "math/angle.h"
 #include "math/chol.h"
 #include "math/scalar.h"
@@ -43,9 +44,6 @@
 #define COLLECT_MEMORY_S 40.0f
 #define MISFIT_MEMORY_S 6.0f
 #define MISFIT_FORGET 4.0f
-
-/// Share of each judgement in what is usual.
-#define USUAL_SHARE 0.05f
 
 /// Time over which the drift of the heading offset is averaged, s, and the largest that is believed, times what the config says.
 #define DRIFT_TIME_S 20.0f
@@ -204,21 +202,6 @@ void jcal_two_dof_follow_drift(jcal_two_dof_t *self)
     }
 }
 
-/// Follows the residuals while the calibration is ready; begins with them.
-static void learn_usual(jcal_two_dof_t *self, const float *ratios)
-{
-    if (self->verdict.status != (uint8_t)JCAL_READY) {
-        return;
-    }
-    for (unsigned i = 0u; i < 2u; ++i) {
-        const float ratio = jcal_max(ratios[i], 1.0f);
-        const float share = self->calibrated ? USUAL_SHARE : 1.0f;
-        self->usual[i] += share * (ratio - self->usual[i]);
-        self->recent[i] = self->calibrated ? self->recent[i] : ratio;
-    }
-    self->calibrated = true;
-}
-
 void jcal_two_dof_judge(jcal_two_dof_t *self)
 {
     jcal_two_dof_verdict_t *const verdict = &self->verdict;
@@ -245,6 +228,8 @@ void jcal_two_dof_judge(jcal_two_dof_t *self)
     } else {
         /* ready, and stays so */
     }
-    learn_usual(self, ratios);
+    if (verdict->status == (uint8_t)JCAL_READY) {
+        jcal_watch_start(&self->watch);
+    }
     verdict->excess = jcal_max(misfit, 1.0f);
 }

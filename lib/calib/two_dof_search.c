@@ -180,7 +180,7 @@ static void begin_probe(jcal_two_dof_t *self)
 /// Makes a point the estimate. If the one before it was ready, the joint is another one now.
 static void adopt(jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
 {
-    if (self->calibrated) {
+    if (self->watch.on) {
         jcal_two_dof_begin_anew(self, JCAL_MOVED);
         return;
     }

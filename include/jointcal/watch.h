@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Layout of what notices that a sensor has moved. Nothing here is for the user to touch.
+#ifndef JCAL_WATCH_H
+#define JCAL_WATCH_H
+
+#include <stdbool.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Private: residuals of two kinds, squared, in units of what the config takes for usual.
+typedef struct {
+    float recent[2];  ///< Mean over the last second of motion.
+    float usual[2];   ///< Mean over the last 20 s of motion since the calibration was ready.
+    bool on;          ///< There is a calibration that was ready.
+} jcal_watch_t;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* JCAL_WATCH_H */
