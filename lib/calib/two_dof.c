@@ -25,6 +25,9 @@
 /// Two kept orientations further apart than this have no rate between them, s.
 #define APART_MAX_S 0.12f
 
+/// What may pass for usual by the watch, times the variance in the config: errors of the inclination come and go within seconds.
+#define WATCH_SHARE 5.0f
+
 /// Items of work for one kept sample: both kinds of moments, then slices of the search.
 #define ITEM_ROTATION 0u
 #define ITEM_ORIENTATION 1u
@@ -196,7 +199,8 @@ static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *samp
     if (self->has_best && (cfg->constraint != JCAL_CONSTRAINT_ORIENTATION)) {
         const float sine = self->verdict.sine;
         const float residual = jcal_two_dof_value(features, &self->best.point);
-        jcal_watch_add(&self->watch, ITEM_ROTATION, residual * residual / (variance * (1.0f - (sine * sine))), time_s);
+        jcal_watch_add(&self->watch, ITEM_ROTATION,
+                       residual * residual / (WATCH_SHARE * variance * (1.0f - (sine * sine))), time_s);
     }
     const float weight = time_s / (JCAL_TWO_DOF_RATE_TIME_S * variance);
     jcal_two_dof_add(self->moments.rotation, features, weight);
@@ -212,7 +216,7 @@ static void add_orientation(jcal_two_dof_t *self, const jcal_orientation_pair_t 
     jcal_two_dof_orientation_features(pair->q1, pair->q2, features);
     if (self->has_best && (cfg->constraint != JCAL_CONSTRAINT_ROTATION)) {
         const float residual = jcal_two_dof_value(features, &self->best.point) - self->verdict.sine;
-        jcal_watch_add(&self->watch, ITEM_ORIENTATION, residual * residual / variance, time_s);
+        jcal_watch_add(&self->watch, ITEM_ORIENTATION, residual * residual / (WATCH_SHARE * variance), time_s);
     }
     jcal_two_dof_add(self->moments.orientation, features, weight);
     for (size_t i = 0u; i < JCAL_TWO_DOF_FEATURES; ++i) {

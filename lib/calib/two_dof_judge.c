@@ -6,6 +6,7 @@
 #include "calib/two_dof_model.h"
 #include "calib/two_dof_prior.h"
 #include "calib/two_dof_residual.h"
+#include "calib/two_dof_stream.h"
 #include "calib/watch.h"
 #include "math/angle.h"
 #include "math/chol.h"
@@ -44,6 +45,9 @@
 #define COLLECT_MEMORY_S 40.0f
 #define MISFIT_MEMORY_S 6.0f
 #define MISFIT_FORGET 4.0f
+
+/// A calibration that was ready and has not fitted for so many judgements is void.
+#define MISFITS_MAX 8u
 
 /// Time over which the drift of the heading offset is averaged, s, and the largest that is believed, times what the config says.
 #define DRIFT_TIME_S 20.0f
@@ -227,6 +231,17 @@ void jcal_two_dof_judge(jcal_two_dof_t *self)
         }
     } else {
         /* ready, and stays so */
+    }
+    if (verdict->reason != (uint8_t)JCAL_REASON_DOES_NOT_FIT) {
+        self->search.misfits = 0u;
+    } else if (self->watch.on) {
+        self->search.misfits = (uint8_t)(self->search.misfits + 1u);
+    } else {
+        /* never did */
+    }
+    if (self->search.misfits >= MISFITS_MAX) {
+        jcal_two_dof_begin_anew(self, JCAL_MOVED);
+        return;
     }
     if (verdict->status == (uint8_t)JCAL_READY) {
         jcal_watch_start(&self->watch);

@@ -19,8 +19,8 @@
 /// What is usual is never taken for less than this: a calm moment is no measure.
 #define JCAL_WATCH_LEAST 0.4f
 
-/// Larger squares count as this: a few samples spoilt by a lost packet are no slip.
-#define JCAL_WATCH_CLIP 20.0f
+/// A square counts at most this many times the usual: a few samples spoilt by a lost packet are no slip.
+#define JCAL_WATCH_CLIP 50.0f
 
 /// Squared rates of both sensors at which a sample counts half: rest tells nothing, (rad/s)^2.
 #define JCAL_WATCH_REST_RATE2 0.25f
@@ -34,7 +34,8 @@ static inline float jcal_watch_motion(float rate2)
 /// Takes in a squared residual of one kind (0 or 1), with its time of motion, s.
 static inline void jcal_watch_add(jcal_watch_t *self, unsigned kind, float square, float motion_s)
 {
-    const float clipped = jcal_min(square, JCAL_WATCH_CLIP);
+    const float usual = jcal_max(self->usual[kind], JCAL_WATCH_LEAST);
+    const float clipped = jcal_min(square, JCAL_WATCH_CLIP * usual);
     self->recent[kind] += (clipped - self->recent[kind]) * (motion_s / (motion_s + JCAL_WATCH_RECENT_S));
     if (self->on) {
         self->usual[kind] += (self->recent[kind] - self->usual[kind]) * (motion_s / (motion_s + JCAL_WATCH_USUAL_S));
