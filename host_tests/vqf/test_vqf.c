@@ -6,7 +6,6 @@
 #include "unity.h"
 
 #include <math.h>
-#include <string.h>
 
 static const float GRAVITY = 9.81f;
 static const float PERIOD_S = 0.01f;
@@ -132,7 +131,7 @@ static void after_reset_the_same_samples_give_the_same_bits(void)
     feed(gyr, acc, 50, first);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_vqf_reset(&filter));
     feed(gyr, acc, 1, again);
-    TEST_ASSERT_TRUE(memcmp(first, again, sizeof first) != 0);
+    TEST_ASSERT_TRUE(first[1] != again[1]);
     feed(gyr, acc, 49, again);
     TEST_ASSERT_EQUAL_MEMORY(first, again, sizeof first);
 }

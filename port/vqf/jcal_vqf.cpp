@@ -16,7 +16,7 @@ static_assert(std::is_trivially_destructible<VQF>::value, "VQF owns something");
 
 static VQF *filter_of(jcal_vqf_t *self)
 {
-    return reinterpret_cast<VQF *>(self->bytes);
+    return static_cast<VQF *>(static_cast<void *>(self->bytes));
 }
 
 static bool period_valid(float period_s)
