@@ -19,6 +19,7 @@ need_packages "${build_packages[@]}" pkg-config xz-utils clang-14 clang-format-1
     cppcheck python3-venv python3-numpy python3-matplotlib
 python=$(python_with numpy matplotlib)
 tools/unity.sh
+tools/vqf.sh
 
 for preset in host host-debug; do
     step "Build, preset $preset"

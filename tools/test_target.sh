@@ -11,8 +11,10 @@ source tools/packages.sh
 
 logs=build/logs
 mkdir -p "$logs"
-need_packages "${build_packages[@]}" gcc-arm-none-eabi picolibc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
+need_packages "${build_packages[@]}" gcc-arm-none-eabi picolibc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm \
+    libstdc++-arm-none-eabi-picolibc python3-venv
 tools/unity.sh
+tools/vqf.sh
 
 what=${1:-all}
 case $what in

@@ -8,7 +8,8 @@ function(jointcal_set_flags target)
     target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -ffunction-sections -fdata-sections)
     target_compile_options(${target} PRIVATE
         -Wall -Wextra -pedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef -Wcast-align
-        -Wmissing-prototypes -Wstrict-prototypes -Wvla)
+        -Wvla
+        $<$<COMPILE_LANGUAGE:C>:-Wmissing-prototypes> $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes>)
     if(JOINTCAL_WERROR)
         target_compile_options(${target} PRIVATE -Werror)
     endif()

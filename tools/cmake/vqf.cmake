@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# Sets jointcal_with_vqf if there is a C++ compiler with the C++ library's headers, which compilers for targets may lack.
+include(CheckLanguage)
+check_language(CXX)
+if(CMAKE_CXX_COMPILER)
+    enable_language(CXX)
+    include(CheckIncludeFileCXX)
+    check_include_file_cxx(cmath JOINTCAL_CXX_HEADERS)
+    if(JOINTCAL_CXX_HEADERS)
+        set(jointcal_with_vqf TRUE)
+    endif()
+endif()
+if(NOT jointcal_with_vqf)
+    message(WARNING "No C++ compiler with the C++ library's headers: jointcal::vqf is left out.")
+endif()
