@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -55,8 +56,10 @@ def load_csv(path: str | Path) -> Recording:
     return Recording(columns["t_s"], *vectors, columns=columns)
 
 
-def write_csv(path: str | Path, rec: Recording, digits: int = 9) -> None:
-    """Write `t_s` and the twelve signals with `digits` significant digits."""
-    table = np.column_stack([rec.t_s, rec.gyr1, rec.acc1, rec.gyr2, rec.acc2])
+def write_csv(path: str | Path, rec: Recording, digits: int = 9,
+              extra: Mapping[str, np.ndarray] | None = None) -> None:
+    """Write `t_s`, the twelve signals and the columns `extra` (N,) with `digits` significant digits."""
+    extra = extra or {}
+    table = np.column_stack([rec.t_s, rec.gyr1, rec.acc1, rec.gyr2, rec.acc2, *extra.values()])
     np.savetxt(path, table, fmt=f"%.{digits}g", delimiter=",", newline="\n",
-               header=",".join(("t_s", *IMU_COLUMNS)), comments="")
+               header=",".join(("t_s", *IMU_COLUMNS, *extra)), comments="")
