@@ -118,6 +118,7 @@ typedef struct {
     uint8_t start;               ///< Which start the probe came from.
     uint8_t tried;               ///< Probes that ended since the sums began.
     uint8_t agreed;              ///< Judgements in a row that found nothing missing.
+    uint8_t turns_since_exchange;  ///< Starts since the exchanged axes were one.
     uint8_t misfits;             ///< Judgements in a row that found that the data do not fit.
     bool half;                   ///< The rotation-based half of `lin` is done.
     bool probing, has_rival;

@@ -22,11 +22,13 @@
 #define SQUARE_2ND 2.15f
 
 /// Residuals may be this many times what is usual, squared, before no joint of this kind explains the data.
-#define MISFIT_MAX 12.0f
+#define MISFIT_MAX 20.0f
 /// Largest |sin(beta0)|, 60 deg: axes that are more alike have no common normal to speak of, and parallel ones explain a hinge.
 #define SINE_MAX 0.866f
-/// The other minimum must cost this much more, in units of the variance.
-#define RIVAL_GAP 30.0f
+/// The other minimum must cost this much more, in units of the variance, and this many times as much: when the angles move one
+/// after the other, both orders of the axes explain that about equally well, and the errors decide which is the better one.
+#define RIVAL_GAP 150.0f
+#define RIVAL_RATIO 3.0f
 /// Probes that must have ended, and judgements in a row that found nothing missing.
 #define TRIED_MIN 8u
 #define AGREED_MIN 3u
@@ -149,7 +151,8 @@ static jcal_calibration_t missing(jcal_two_dof_t *self, const bounds_t *bounds, 
             JCAL_REASON_UNCERTAIN);
         return JCAL_COLLECTING;
     }
-    if (search->has_rival && (search->rival_cost < (search->cost + RIVAL_GAP))) {
+    if (search->has_rival &&
+        (search->rival_cost < jcal_max(search->cost + RIVAL_GAP, RIVAL_RATIO * search->cost))) {
         say(verdict, JCAL_WEAK_NONE, JCAL_HINT_MOVE_JOINT, JCAL_REASON_OTHER_MINIMUM);
         return JCAL_AMBIGUOUS;
     }

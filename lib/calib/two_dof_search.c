@@ -7,6 +7,7 @@
 #include "calib/two_dof_model.h"
 #include "calib/two_dof_prior.h"
 #include "calib/two_dof_stream.h"
+#include "jointcal/quat.h"
 #include "math/scalar.h"
 #include "math/solve.h"
 
@@ -19,6 +20,9 @@
 #define START_STRIDE 17u
 /// Headings that a start chooses from.
 #define HEADINGS 8u
+
+/// So many starts are tried before the exchanged axes are once more.
+#define EXCHANGE_EVERY 3u
 
 /// A probe ends after so many steps, or when a step is shorter than this, rad.
 #define PROBE_STEPS 14u
@@ -62,6 +66,11 @@ static jcal_vec3_t line_of(unsigned which)
     default:
         return jcal_vec3(s, s, -s);
     }
+}
+
+static jcal_vec3_t turned_about_z(jcal_vec3_t v, jcal_plane_t turn)
+{
+    return jcal_vec3((turn.re * v.x) - (turn.im * v.y), (turn.im * v.x) + (turn.re * v.y), v.z);
 }
 
 static bool within(const jcal_two_dof_point_t *a, const jcal_two_dof_point_t *b, float cosine)
@@ -158,12 +167,39 @@ static float cost_at(const jcal_two_dof_t *self, const jcal_two_dof_point_t *poi
     return (cost / self->verdict.excess) + jcal_two_dof_prior_cost(&self->prior, point);
 }
 
+/// The estimate with the order of its axes exchanged, as the segments stand now: j1' = R1' D R2 j2, j2' = R2' D' R1 j1.
+///
+/// While one angle of the joint rests the other axis might as well be fixed to the other segment: the same motion, explained the
+/// other way round. Starts all over the sphere find that minimum late.
+static jcal_two_dof_point_t exchanged(const jcal_two_dof_t *self)
+{
+    const jcal_orientation_pair_t *const pair = &self->ring[(self->taken - 1u) % JCAL_TWO_DOF_RING];
+    const jcal_two_dof_point_t *const best = &self->best.point;
+    const jcal_vec3_t in1 = jcal_quat_rotate(pair->q1, best->j1);
+    const jcal_vec3_t in2 = jcal_quat_rotate(pair->q2, best->j2);
+    const jcal_plane_t back = {best->heading.re, -best->heading.im};
+    const jcal_two_dof_point_t point = {
+        jcal_quat_rotate(jcal_quat_conj(pair->q1), turned_about_z(in2, best->heading)),
+        jcal_quat_rotate(jcal_quat_conj(pair->q2), turned_about_z(in1, back)),
+        best->heading,
+    };
+    return point;
+}
+
 static void begin_probe(jcal_two_dof_t *self)
 {
     jcal_two_dof_search_t *const search = &self->search;
     static const jcal_plane_t turns[HEADINGS] = {
         {1.0f, 0.0f},  {0.70710678f, 0.70710678f},   {0.0f, 1.0f},  {-0.70710678f, 0.70710678f},
         {-1.0f, 0.0f}, {-0.70710678f, -0.70710678f}, {0.0f, -1.0f}, {0.70710678f, -0.70710678f}};
+    if (self->has_best && (search->turns_since_exchange >= EXCHANGE_EVERY)) {
+        search->turns_since_exchange = 0u;
+        const jcal_two_dof_point_t other = exchanged(self);
+        begin(&search->probe, &other);
+        search->probing = true;
+        return;
+    }
+    search->turns_since_exchange = (uint8_t)(search->turns_since_exchange + 1u);
     float costs[HEADINGS];
     jcal_two_dof_point_t point = {line_of(search->start / LINES), line_of(search->start % LINES), turns[0]};
     jcal_two_dof_costs(&self->moments, self->cfg.constraint, &point, turns, HEADINGS, costs);
@@ -175,6 +211,12 @@ static void begin_probe(jcal_two_dof_t *self)
     begin(&search->probe, &point);
     search->start = (uint8_t)((search->start + START_STRIDE) % STARTS);
     search->probing = true;
+}
+
+/// The line of `axis` in the sense of `like`.
+static jcal_vec3_t align(jcal_vec3_t axis, jcal_vec3_t like)
+{
+    return (jcal_vec3_dot(axis, like) < 0.0f) ? jcal_vec3_scale(axis, -1.0f) : axis;
 }
 
 /// Makes a point the estimate. If the one before it was ready, the joint is another one now.
@@ -212,7 +254,10 @@ static void file_probe(jcal_two_dof_t *self)
     const bool better = cost < (search->cost - BETTER);
     if (within(&self->best.point, point, SAME_COSINE)) {
         if (better) {
-            begin(&self->best, point);
+            jcal_two_dof_point_t aligned = *point; /* the senses stay: the mean of the sine goes with them */
+            aligned.j1 = align(point->j1, self->best.point.j1);
+            aligned.j2 = align(point->j2, self->best.point.j2);
+            begin(&self->best, &aligned);
         }
     } else if (better) {
         const jcal_two_dof_point_t rival = self->best.point;
