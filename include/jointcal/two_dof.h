@@ -51,7 +51,7 @@ typedef struct {
     jcal_gate_config_t gate;       ///< Of it, frozen_s and gap_s.
     jcal_constraint_t constraint;  ///< Default JCAL_CONSTRAINT_COMBINED.
     float max_bound_rad;           ///< `ready` needs all bounds below this, rad. Range [0.001, 0.5], default 3 deg.
-    /// What the model leaves out (scale, misalignment, inclination errors): added to every bound, rad. Range [0, 0.1], default 0.3 deg.
+    /// What the model leaves out (scale, misalignment, inclination errors): added to every bound, rad. Range [0, 0.1], default 0.9 deg.
     float mismatch_rad;
     /// Usual violation of the rotation-based constraint at rest, rad/s; grows by rate_error. Range [1e-3, 1], default 0.02.
     float rate_noise_rad_s;

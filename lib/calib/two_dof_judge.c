@@ -39,6 +39,9 @@
 /// Share of bad samples.
 #define BAD_SHARE_MAX 0.2f
 
+/// Residuals, squared, are never taken for less than this share of what the config calls usual.
+#define EXCESS_MIN 0.35f
+
 /// What fades once the status is `ready`, and how often: per step of time, share of the memory.
 #define FADE_KEEP 0.75f
 #define FADE_SHARE 0.287682f /* -ln(FADE_KEEP) */
@@ -249,5 +252,5 @@ void jcal_two_dof_judge(jcal_two_dof_t *self)
     if (verdict->status == (uint8_t)JCAL_READY) {
         jcal_watch_start(&self->watch);
     }
-    verdict->excess = jcal_max(misfit, 1.0f);
+    verdict->excess = jcal_max(misfit, EXCESS_MIN);
 }
