@@ -36,6 +36,9 @@ MEASUREMENTS = {
     "time": "time to ready",
     "bias": "what the bias states buy",
     "reference": "the stream engine beside float64, rig and simulated",
+    "two_dof": "2-DoF joint: whole rig recordings, and every 5, 10, 20 s window",
+    "two_dof_sim": "2-DoF joint, simulated: coverage, sharpness, what must never be ready",
+    "moved": "slips: how soon they are noticed, false alarms",
     "cost": "time and memory, beside qmt",
 }
 MODULES = {"time": "time_to_ready"}  # where the name differs

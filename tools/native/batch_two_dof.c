@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: MIT */
+/* Runs the stream engine of the 2-DoF joint, and VQF, over arrays. */
+#include "batch_two_dof.h"
+
+#ifdef JCAL_BATCH_HAS_VQF
+#include "jcal_vqf.h"
+#endif
+
+#include <string.h>
+
+void jcal_batch_two_dof_defaults(jcal_batch_two_dof_options_t *options)
+{
+    const jcal_two_dof_config_t config = jcal_two_dof_config_default();
+    *options = (jcal_batch_two_dof_options_t){
+        .constraint = (int32_t)config.constraint,
+        .max_bound_rad = config.max_bound_rad,
+        .mismatch_rad = config.mismatch_rad,
+        .memory_s = config.memory_s,
+    };
+}
+
+static jcal_quat_t quaternion_at(const float *v)
+{
+    const jcal_quat_t q = {v[0], v[1], v[2], v[3]};
+    return q;
+}
+
+static void write_row(const jcal_two_dof_result_t *r, float row[static JCAL_BATCH_TWO_DOF_COLUMNS])
+{
+    const float values[JCAL_BATCH_TWO_DOF_COLUMNS] = {
+        (float)r->status,
+        (float)r->reason,
+        (float)r->weak,
+        (float)r->hint,
+        r->axis1.x,
+        r->axis1.y,
+        r->axis1.z,
+        r->axis2.x,
+        r->axis2.y,
+        r->axis2.z,
+        r->heading_offset_rad,
+        r->carrying_angle_rad,
+        r->uncertainty1_rad,
+        r->uncertainty2_rad,
+        r->uncertainty_heading_rad,
+    };
+    memcpy(row, values, sizeof(values));
+}
+
+int32_t jcal_batch_two_dof_run(const jcal_batch_two_dof_options_t *options, const jcal_batch_orientations_t *in,
+                               float *rows, uint32_t *rejected_by)
+{
+    jcal_two_dof_config_t config = jcal_two_dof_config_default();
+    config.constraint = (jcal_constraint_t)options->constraint;
+    config.max_bound_rad = options->max_bound_rad;
+    config.mismatch_rad = options->mismatch_rad;
+    config.memory_s = options->memory_s;
+    jcal_two_dof_t engine;
+    if (jcal_two_dof_init(&engine, &config) != JCAL_OK) {
+        return JCAL_BATCH_CONFIG;
+    }
+    jcal_two_dof_result_t result;
+    for (size_t k = 0; k < in->count; k++) {
+        const float *const v = in->values + k * 8;
+        const jcal_orientation_pair_t pair = {in->t_us[k], quaternion_at(v), quaternion_at(v + 4)};
+        (void)jcal_two_dof_update(&engine, &pair);
+        (void)jcal_two_dof_get(&engine, &result);
+        write_row(&result, rows + k * JCAL_BATCH_TWO_DOF_COLUMNS);
+    }
+    (void)jcal_two_dof_get(&engine, &result);
+    memcpy(rejected_by, result.rejected_by, sizeof(result.rejected_by));
+    return JCAL_BATCH_DONE;
+}
+
+int32_t jcal_batch_vqf(const float *values, size_t count, float period_s, float *orientations)
+{
+#ifdef JCAL_BATCH_HAS_VQF
+    jcal_vqf_t filter;
+    if (jcal_vqf_init(&filter, period_s, period_s) != JCAL_OK) {
+        return JCAL_BATCH_CONFIG;
+    }
+    float q[4] = {1.0f, 0.0f, 0.0f, 0.0f};
+    for (size_t k = 0; k < count; k++) {
+        if (jcal_vqf_update(&filter, values + k * 6, values + k * 6 + 3, q) < JCAL_OK) {
+            return JCAL_BATCH_CONFIG;
+        }
+        memcpy(orientations + k * 4, q, sizeof(q)); /* a reading that is not finite repeats the last one */
+    }
+    return JCAL_BATCH_DONE;
+#else
+    (void)values;
+    (void)count;
+    (void)period_s;
+    (void)orientations;
+    return JCAL_BATCH_CONFIG;
+#endif
+}

@@ -1,0 +1,208 @@
+"""2-DoF joint on the rig: whole recordings, and every 5, 10, 20 s window given to a fresh instance."""
+
+from __future__ import annotations
+
+import functools
+from collections import Counter
+from dataclasses import dataclass
+
+import numpy as np
+
+from .. import lai22, native
+from .. import native_two_dof as two_dof
+from .. import quaternions as quat
+from ..lai22_signals import median_angle, prepare, reference_heading
+from .harness import Report, Settings, Skipped, median, number, percent, quantile, run_jobs
+from .judge import available, line_angle_deg, nominal_axes, recording
+
+TITLE = "2-DoF joint: rig recordings, whole and in windows"
+RIG = ("rig_2D_01", "rig_2D_02", "rig_2D_05")
+CONSTRAINTS = ("combined", "rotation", "orientation")
+LENGTHS_S = (5, 10, 20)
+AXIS_DEG = HEADING_DEG = 1.3
+INFORMATIVE_RAD_S = 0.3  # of both joint rates and of the first sensor's rate, rms
+READY_SHARE_10_S = 0.85
+MEDIAN_DEG, MOST_DEG = 0.8, 2.0
+SAME_FORM_DEG = 0.2  # stream and window form of the rotation-based constraint
+HEADING_LAST_S = 10.0
+
+
+@dataclass
+class Rig:
+    t_s: np.ndarray
+    q1: np.ndarray
+    q2: np.ndarray
+    heading_deg: np.ndarray  # optical, (N,)
+    axes: tuple[np.ndarray, np.ndarray]
+
+
+@functools.cache
+def rig(name: str) -> Rig:
+    rec = recording(name)
+    q1, q2 = two_dof.orientations(rec)
+    refs = [np.column_stack([rec.columns[f"ref_q{i}_{part}"] for part in "wxyz"]) for i in (1, 2)]
+    heading = np.degrees(reference_heading(refs[0], q1.astype(float), refs[1], q2.astype(float)))
+    return Rig(rec.t_s - rec.t_s[0], q1, q2, heading, nominal_axes(name))
+
+
+def need_rig() -> list[str]:
+    names = available(*RIG)
+    if len(names) < len(RIG):
+        raise Skipped("the rig recordings are not there; JOINTCAL_DATA names their folder")
+    if not two_dof.has_vqf():
+        raise Skipped("the library was built without VQF; tools/vqf.sh brings it")
+    return names
+
+
+def wrap_deg(angle: np.ndarray | float) -> np.ndarray | float:
+    return -(np.mod(-np.asarray(angle) + 180.0, 360.0) - 180.0)
+
+
+def is_false(errors: np.ndarray, bounds: np.ndarray) -> np.ndarray:
+    """(N,) axis errors (N, 2) that `ready` must not have: above 10 deg, or beyond twice the bound plus 1 deg of the rig."""
+    return ((errors > 10.0) | (errors > (2.0 * bounds + 1.0))).any(axis=1)
+
+
+def errors_of(track: two_dof.Track, axes: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+    return np.column_stack([line_angle_deg(track.axis1, axes[0]), line_angle_deg(track.axis2, axes[1])])
+
+
+def is_informative(part: Rig) -> bool:
+    """Rates about both axes of the joint, solved for at the nominal axes and the optical heading, and of sensor 1."""
+    s = prepare(part.q1.astype(float), part.q2.astype(float), part.t_s, "none").samples
+    turn = lai22.heading_matrix(median_angle(np.radians(part.heading_deg)))
+    first, second = s.r1 @ part.axes[0], (s.r2 @ part.axes[1]) @ turn.T
+    relative = s.w2 @ turn.T - s.w1
+    basis = np.stack([first, second, np.cross(first, second)], axis=-1)
+    rates = np.linalg.solve(basis, relative[..., None])[..., 0]
+    rms = [*np.sqrt(np.mean(rates[:, :2] ** 2, axis=0)), np.sqrt(np.mean(np.sum(s.w1**2, axis=1)))]
+    return min(rms) > INFORMATIVE_RAD_S
+
+
+@dataclass
+class Outcome:
+    constraint: str
+    length_s: int
+    place: str
+    informative: bool
+    ready: bool
+    false_ready: bool
+    errors: np.ndarray  # (3,) axis1, axis2, heading at the end, deg
+    bounds: np.ndarray
+    covered_first: np.ndarray | None  # (3,) at first ready
+    reason: str
+
+
+def measure_window(job: tuple[str, int, int]) -> list[Outcome]:
+    name, length_s, index = job
+    whole = rig(name)
+    part = slice(*np.searchsorted(whole.t_s, [index * length_s, (index + 1) * length_s]))
+    cut = Rig(whole.t_s[part], whole.q1[part], whole.q2[part], whole.heading_deg[part], whole.axes)
+    informative = is_informative(cut)
+    outcomes = []
+    for constraint in CONSTRAINTS:
+        track = two_dof.run(cut.t_s, cut.q1, cut.q2, constraint=constraint)
+        errors = errors_of(track, cut.axes)
+        heading = np.abs(wrap_deg(track.heading_deg - np.degrees(median_angle(np.radians(cut.heading_deg)))))
+        every = np.column_stack([errors, heading])
+        first = track.first_ready()
+        outcomes.append(Outcome(constraint, length_s, f"{name}, window {index} of {length_s} s", informative,
+                                bool(track.ready[-1]),
+                                bool((track.ready & is_false(errors, track.bounds_deg[:, :2])).any()), every[-1],
+                                track.bounds_deg[-1], None if first is None else every[first] <= track.bounds_deg[first],
+                                native.reason_name(track.reason[-1])))
+    return outcomes
+
+
+def window_row(length_s: int, constraint: str, mine: list[Outcome]) -> list:
+    informative = [o for o in mine if o.informative]
+    ready = [o for o in mine if o.ready]
+    axes = np.array([o.errors[:2] for o in ready]).ravel()
+    first = [o.covered_first for o in mine if o.covered_first is not None]
+    reasons = Counter(o.reason for o in informative if not o.ready)
+    return [f"{length_s} s", constraint, len(mine), len(informative),
+            percent(sum(o.ready for o in informative), len(informative)), sum(o.false_ready for o in mine),
+            number(median(axes)), number(quantile(axes, 0.9)), number(median([o.errors[2] for o in ready])),
+            number(quantile([o.errors[2] for o in ready], 0.9)),
+            *(percent(sum(c[k] for c in first), len(first)) for k in range(3)),
+            ", ".join(f"{name} {count}" for name, count in reasons.most_common()) or "-"]
+
+
+def optical_heading(whole: Rig) -> float:
+    """Median over the last 10 s, deg."""
+    last = whole.t_s > (whole.t_s[-1] - HEADING_LAST_S)
+    return float(np.degrees(median_angle(np.radians(whole.heading_deg[last]))))
+
+
+def whole_recordings(names: list[str], report: Report) -> None:
+    rows = []
+    for name in names:
+        whole = rig(name)
+        for constraint in CONSTRAINTS:
+            track = two_dof.run(whole.t_s, whole.q1, whole.q2, constraint=constraint)
+            errors = errors_of(track, whole.axes)
+            heading = abs(float(wrap_deg(track.heading_deg[-1] - optical_heading(whole))))
+            first = track.first_ready()
+            ready = track.ready
+            rows.append([name, constraint, number(np.inf if first is None else track.t_s[first], 1),
+                         number(errors[-1, 0]), number(errors[-1, 1]), number(heading),
+                         *(number(b) for b in track.bounds_deg[-1]),
+                         number(errors[ready].max() if ready.any() else np.nan), percent(ready.sum(), len(ready)),
+                         len(track.moved)])
+            if constraint == "combined":
+                report.require_most(f"{name}: axis errors at the end", max(errors[-1]), AXIS_DEG, " deg")
+                report.require_most(f"{name}: heading error at the end", heading, HEADING_DEG, " deg")
+                report.require_none(f"{name}: false ready or false moved",
+                                    int((ready & is_false(errors, track.bounds_deg[:, :2])).sum()) + len(track.moved),
+                                    len(ready))
+    report.text("Whole recordings from a cold start, orientations by VQF, nominal axes j1 = y, j2 = z, deg. The heading is "
+                "compared with the optical one, the median over the last 10 s.")
+    report.table(["recording", "constraint", "ready after, s", "error 1", "error 2", "heading", "bound 1", "bound 2",
+                  "bound h", "worst while ready", "ready", "moved"], rows)
+
+
+def against_numpy(names: list[str], report: Report) -> None:
+    """The rotation-based stream engine on 20 s, and float64 on the samples themselves."""
+    apart = []
+    for name in names:
+        whole = rig(name)
+        for begin in range(0, int(whole.t_s[-1]) - 20, 40):
+            part = slice(*np.searchsorted(whole.t_s, [begin, begin + 20]))
+            track = two_dof.run(whole.t_s[part], whole.q1[part], whole.q2[part], constraint="rotation", memory_s=600.0)
+            if not track.ready[-1]:
+                continue
+            prepared = prepare(whole.q1[part].astype(float), whole.q2[part].astype(float), whole.t_s[part], "none")
+            best = lai22.solve(prepared.samples, "rotation")
+            apart.append(max(float(line_angle_deg(track.axis1[-1], best.pose.j1)),
+                             float(line_angle_deg(track.axis2[-1], best.pose.j2))))
+    report.text("Rotation-based constraint on windows of 20 s: axes of the stream engine and of float64 on the samples, "
+                f"which weighs all alike and low-passes nothing: {number(median(apart))} deg apart in the median, "
+                f"{number(max(apart, default=np.nan))} deg at most, {len(apart)} windows.")
+
+
+def measure(settings: Settings, report: Report) -> None:
+    names = need_rig()
+    whole_recordings(names, report)
+    against_numpy(names[:1] if settings.quick else names, report)
+    jobs = [(name, length_s, index) for name in names for length_s in LENGTHS_S
+            for index in range(int(rig(name).t_s[-1] // length_s))]
+    jobs = jobs[::3] if settings.quick else jobs
+    outcomes = [o for found in run_jobs(measure_window, jobs, "two_dof", settings) for o in found]
+    report.text("Consecutive windows, each given to a fresh instance. Informative: both joint rates and that of sensor 1 "
+                f"above {INFORMATIVE_RAD_S} rad/s rms. False ready: at any time `ready` with an axis more than 10 deg off, "
+                "or beyond twice its bound plus 1 deg for the rig's own error. Errors of the windows that end ready, deg; "
+                "heading against the optical median of the window. Cover: inside the bound at first ready.")
+    groups = {(length_s, constraint): [o for o in outcomes if (o.length_s, o.constraint) == (length_s, constraint)]
+              for length_s in LENGTHS_S for constraint in CONSTRAINTS}
+    report.table(["length", "constraint", "windows", "informative", "of these ready", "false ready", "axis median",
+                  "axis 90 %", "heading median", "heading 90 %", "cover 1", "cover 2", "cover h", "reasons"],
+                 [window_row(*key, mine) for key, mine in groups.items()])
+    for (length_s, constraint), mine in groups.items():
+        report.require_none(f"{constraint}, {length_s} s: false ready", sum(o.false_ready for o in mine), len(mine))
+    ten = groups[10, "combined"]
+    informative = [o.ready for o in ten if o.informative]
+    report.require_share("combined, 10 s: informative windows that end ready", sum(informative), len(informative),
+                         READY_SHARE_10_S)
+    axes = np.array([o.errors[:2] for o in ten if o.ready]).ravel()
+    report.require_most("combined, 10 s: median axis error", median(axes), MEDIAN_DEG, " deg")
+    report.require_most("combined, 10 s: 90 % of the axis errors", quantile(axes, 0.9), MOST_DEG, " deg")
