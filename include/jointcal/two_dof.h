@@ -51,7 +51,7 @@ typedef struct {
     jcal_gate_config_t gate;       ///< Of it, frozen_s and gap_s.
     jcal_constraint_t constraint;  ///< Default JCAL_CONSTRAINT_COMBINED.
     float max_bound_rad;           ///< `ready` needs all bounds below this, rad. Range [0.001, 0.5], default 3 deg.
-    /// What the model leaves out (scale, misalignment, inclination errors): added to every bound, rad. Range [0, 0.1], default 0.9 deg.
+    /// What the model leaves out (scale, misalignment, inclination errors): added to every bound, rad. Range [0, 0.1], default 0.75 deg.
     float mismatch_rad;
     /// Usual violation of the rotation-based constraint at rest, rad/s; grows by rate_error. Range [1e-3, 1], default 0.02.
     float rate_noise_rad_s;
@@ -118,7 +118,8 @@ typedef struct {
     uint8_t start;               ///< Which start the probe came from.
     uint8_t tried;               ///< Probes that ended since the sums began.
     uint8_t agreed;              ///< Judgements in a row that found nothing missing.
-    uint8_t turns_since_exchange;  ///< Starts since the exchanged axes were one.
+    uint8_t since_exchange;      ///< Starts since the exchanged axes were one.
+    uint8_t exchanges;           ///< How often they were, with this estimate.
     uint8_t misfits;             ///< Judgements in a row that found that the data do not fit.
     bool half;                   ///< The rotation-based half of `lin` is done.
     bool probing, has_rival;

@@ -42,7 +42,7 @@ jcal_two_dof_config_t jcal_two_dof_config_default(void)
         .gate = jcal_gate_config_default(),
         .constraint = JCAL_CONSTRAINT_COMBINED,
         .max_bound_rad = 3.0f * JCAL_RAD_PER_DEG,
-        .mismatch_rad = 0.9f * JCAL_RAD_PER_DEG,
+        .mismatch_rad = 0.75f * JCAL_RAD_PER_DEG,
         .rate_noise_rad_s = 0.02f,
         .rate_error = 0.02f,
         .angle_noise_rad = 0.013f,

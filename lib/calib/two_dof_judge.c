@@ -28,9 +28,10 @@
 /// The other minimum must cost this much more, in units of the variance, and this many times as much: when the angles move one
 /// after the other, both orders of the axes explain that about equally well, and the errors decide which is the better one.
 #define RIVAL_GAP 150.0f
-#define RIVAL_RATIO 3.0f
-/// Probes that must have ended, and judgements in a row that found nothing missing.
+#define RIVAL_RATIO 5.0f
+/// Probes that must have ended, how many of them from the exchanged axes, each at another pose, and judgements in a row that found nothing missing.
 #define TRIED_MIN 8u
+#define EXCHANGES_MIN 2u
 #define AGREED_MIN 3u
 /// Least motion, s.
 #define MOVING_MIN_S 2.0f
@@ -41,6 +42,9 @@
 
 /// Residuals, squared, are never taken for less than this share of what the config calls usual.
 #define EXCESS_MIN 0.35f
+
+/// An inclined earth frame turns the heading more than it turns an axis.
+#define HEADING_MISMATCH 1.5f
 
 /// What fades once the status is `ready`, and how often: per step of time, share of the memory.
 #define FADE_KEEP 0.75f
@@ -104,8 +108,8 @@ static bounds_t bounds_of(const jcal_two_dof_t *self)
     bounds.axis2 = jcal_min(
         radius(inverse[jcal_sym_at(2u, 2u)], inverse[jcal_sym_at(3u, 2u)], inverse[jcal_sym_at(3u, 3u)]) + mismatch,
         UNKNOWN_RAD);
-    bounds.heading =
-        jcal_min(sqrtf(SQUARE_1D * jcal_max(inverse[jcal_sym_at(4u, 4u)], 0.0f)) + mismatch + drift, UNKNOWN_RAD);
+    const float spread = sqrtf(SQUARE_1D * jcal_max(inverse[jcal_sym_at(4u, 4u)], 0.0f));
+    bounds.heading = jcal_min(spread + (HEADING_MISMATCH * mismatch) + drift, UNKNOWN_RAD);
     return bounds;
 }
 
@@ -154,12 +158,11 @@ static jcal_calibration_t missing(jcal_two_dof_t *self, const bounds_t *bounds, 
             JCAL_REASON_UNCERTAIN);
         return JCAL_COLLECTING;
     }
-    if (search->has_rival &&
-        (search->rival_cost < jcal_max(search->cost + RIVAL_GAP, RIVAL_RATIO * search->cost))) {
+    if (search->has_rival && (search->rival_cost < jcal_max(search->cost + RIVAL_GAP, RIVAL_RATIO * search->cost))) {
         say(verdict, JCAL_WEAK_NONE, JCAL_HINT_MOVE_JOINT, JCAL_REASON_OTHER_MINIMUM);
         return JCAL_AMBIGUOUS;
     }
-    if (search->tried < TRIED_MIN) {
+    if ((search->tried < TRIED_MIN) || (search->exchanges < EXCHANGES_MIN)) {
         say(verdict, JCAL_WEAK_NONE, JCAL_HINT_MOVE_JOINT, JCAL_REASON_UNCERTAIN);
         return JCAL_COLLECTING;
     }

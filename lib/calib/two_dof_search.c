@@ -22,7 +22,7 @@
 #define HEADINGS 8u
 
 /// So many starts are tried before the exchanged axes are once more.
-#define EXCHANGE_EVERY 3u
+#define EXCHANGE_EVERY 1u
 
 /// A probe ends after so many steps, or when a step is shorter than this, rad.
 #define PROBE_STEPS 14u
@@ -192,14 +192,15 @@ static void begin_probe(jcal_two_dof_t *self)
     static const jcal_plane_t turns[HEADINGS] = {
         {1.0f, 0.0f},  {0.70710678f, 0.70710678f},   {0.0f, 1.0f},  {-0.70710678f, 0.70710678f},
         {-1.0f, 0.0f}, {-0.70710678f, -0.70710678f}, {0.0f, -1.0f}, {0.70710678f, -0.70710678f}};
-    if (self->has_best && (search->turns_since_exchange >= EXCHANGE_EVERY)) {
-        search->turns_since_exchange = 0u;
+    if (self->has_best && (search->since_exchange >= EXCHANGE_EVERY)) {
+        search->since_exchange = 0u;
+        search->exchanges = (uint8_t)((search->exchanges < UINT8_MAX) ? (search->exchanges + 1u) : UINT8_MAX);
         const jcal_two_dof_point_t other = exchanged(self);
         begin(&search->probe, &other);
         search->probing = true;
         return;
     }
-    search->turns_since_exchange = (uint8_t)(search->turns_since_exchange + 1u);
+    search->since_exchange = (uint8_t)(search->since_exchange + 1u);
     float costs[HEADINGS];
     jcal_two_dof_point_t point = {line_of(search->start / LINES), line_of(search->start % LINES), turns[0]};
     jcal_two_dof_costs(&self->moments, self->cfg.constraint, &point, turns, HEADINGS, costs);
@@ -231,6 +232,7 @@ static void adopt(jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
     self->heading_then = (jcal_plane_t){0.0f, 0.0f};
     self->drift_rad_s = 0.0f;
     self->search.agreed = 0u;
+    self->search.exchanges = 0u;
     if (self->verdict.status != (uint8_t)JCAL_MOVED) {
         self->verdict.status = (uint8_t)JCAL_COLLECTING;
     }
