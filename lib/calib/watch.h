@@ -17,7 +17,7 @@
 #define JCAL_WATCH_RATIO 6.0f
 
 /// What is usual is never taken for less than this: a calm moment is no measure.
-#define JCAL_WATCH_LEAST 0.4f
+#define JCAL_WATCH_LEAST 0.5f
 
 /// A square counts at most this many times the usual: a few samples spoilt by a lost packet are no slip.
 #define JCAL_WATCH_CLIP 50.0f
