@@ -108,9 +108,10 @@ static void angles_do_not_depend_on_how_the_proximal_segment_lies(void)
     const pose_t first = {0.0, 0.0, 1.0, pose_any(2)};
     const jcal_joint_frames_t frames = calibrated(&joint, &first);
     for (int i = 0; i < 64; ++i) {
+        const int quarter = i / 16;
         const pose_quat_t tilt = pose_mul(pose_turn(90.0 * DEG * (i % 4), 1.0, 0.0, 0.0),
                                           pose_turn(90.0 * DEG * (i / 4 % 4), 0.0, 1.0, 0.0));
-        const pose_t pose = {90.0 * DEG * (double)(i / 16), 1.2, 0.5, tilt};
+        const pose_t pose = {90.0 * DEG * quarter, 1.2, 0.5, tilt};
         assert_angles(&joint, &pose, angles_of(&joint, &frames, &pose));
     }
 }

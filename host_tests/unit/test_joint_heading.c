@@ -3,6 +3,7 @@
 /// Tests of jointcal/joint_heading.h on motions whose heading offset is known.
 #include "joint_pose.h"
 #include "jointcal/joint_heading.h"
+#include "jointcal/vec3.h"
 
 #include "unity.h"
 
@@ -175,6 +176,25 @@ static void pairs_without_a_value_or_out_of_order_change_nothing(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &follower, sizeof before);
 }
 
+static void better_axes_are_taken_over(void)
+{
+    for (int kind = 0; kind < 2; ++kind) {
+        const pose_joint_t *joint = (kind == 0) ? &HINGE : &ELBOW;
+        jcal_joint_heading_t follower;
+        const jcal_vec3_t other = {1.0f, 0.0f, 0.0f};
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, joint->hinge ? jcal_joint_heading_hinge(&follower, other, other, 2.0f)
+                                                    : jcal_joint_heading_two_dof(&follower, other, other, 0.9f, 2.0f));
+        push(&follower, joint, 0.0, 0.4);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_joint_heading_improve(&follower, jcal_vec3_scale(pose_axis1(joint), 2.0f),
+                                                                  pose_axis2(joint), (float)joint->carrying));
+        for (int k = 1; k < 600; ++k) {
+            push(&follower, joint, 0.05 * k, 0.4);
+        }
+        TEST_ASSERT_TRUE(get(&follower).known);
+        TEST_ASSERT_TRUE(pose_apart((double)get(&follower).heading_rad, 0.4) < 100.0 * EXACT_TOL);
+    }
+}
+
 static void arguments_are_checked(void)
 {
     jcal_joint_heading_t follower;
@@ -196,6 +216,10 @@ static void arguments_are_checked(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_hinge(NULL, good, good, 1.0f));
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_joint_heading_hinge(&follower, good, good, 1.0f));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_push(&follower, NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_improve(NULL, good, good, 0.0f));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_improve(&follower, bad[0], good, 0.0f));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_improve(&follower, good, bad[1], 0.0f));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_improve(&follower, good, good, 1.6f));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_get(NULL, &heading));
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_joint_heading_get(&follower, &heading));
     TEST_ASSERT_FALSE(heading.known);
@@ -212,6 +236,7 @@ int main(void)
     RUN_TEST(one_posture_of_two_axes_tells_nothing);
     RUN_TEST(flexion_alone_of_two_axes_tells_nothing_wrong);
     RUN_TEST(pairs_without_a_value_or_out_of_order_change_nothing);
+    RUN_TEST(better_axes_are_taken_over);
     RUN_TEST(arguments_are_checked);
     return UNITY_END();
 }

@@ -50,6 +50,12 @@ JCAL_MUST_CHECK jcal_status_t jcal_joint_heading_hinge(jcal_joint_heading_t *sel
 JCAL_MUST_CHECK jcal_status_t jcal_joint_heading_two_dof(jcal_joint_heading_t *self, jcal_vec3_t axis1,
                                                          jcal_vec3_t axis2, float carrying_rad, float memory_s);
 
+/// Other axes, and another carrying angle unless it is a hinge, from a calibration that gets better; what was summed stays.
+///
+/// Errors:   JCAL_ERR_ARG as above; self untouched.
+JCAL_MUST_CHECK jcal_status_t jcal_joint_heading_improve(jcal_joint_heading_t *self, jcal_vec3_t axis1,
+                                                         jcal_vec3_t axis2, float carrying_rad);
+
 /// Takes in one pair and solves. A pair that is not finite, or whose time does not increase, is left out.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED; JCAL_ERR_ARG (null).

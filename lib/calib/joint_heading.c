@@ -76,6 +76,18 @@ jcal_status_t jcal_joint_heading_two_dof(jcal_joint_heading_t *self, jcal_vec3_t
     return status;
 }
 
+jcal_status_t jcal_joint_heading_improve(jcal_joint_heading_t *self, jcal_vec3_t axis1, jcal_vec3_t axis2,
+                                         float carrying_rad)
+{
+    if ((self == NULL) || !is_axis(axis1) || !is_axis(axis2) || !jcal_within(carrying_rad, -1.5f, 1.5f)) {
+        return JCAL_ERR_ARG;
+    }
+    self->axis1 = jcal_vec3_normalise(axis1);
+    self->axis2 = jcal_vec3_normalise(axis2);
+    self->sin_carrying = self->hinge ? 0.0f : jcal_cis(carrying_rad).im;
+    return JCAL_OK;
+}
+
 /* The largest is where the axes agree; its size is the mean product of the horizontal parts. */
 static void solve_hinge(jcal_joint_heading_t *self)
 {
