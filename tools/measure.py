@@ -36,6 +36,7 @@ MEASUREMENTS = {
     "time": "time to ready",
     "bias": "what the bias states buy",
     "reference": "the stream engine beside float64, rig and simulated",
+    "angles": "joint angles of the rig beside the optical ones",
     "cost": "time and memory, beside qmt",
 }
 MODULES = {"time": "time_to_ready"}  # where the name differs
