@@ -268,8 +268,9 @@ static const struct argp PARSER = {
     .args_doc = "RECORDING.csv --joint hinge|two-dof",
     .doc =
         "Computes the angles of a joint from a recording of arbitrary motion.\v"
-        "The recording is as for 'jointcal hinge'. Orientations come from its columns q1_w, q1_x, q1_y, q1_z, q2_w ... "
-        "if it has them, else from a filter without magnetometer.\n"
+        "The recording is as for 'jointcal hinge', with orientations in the columns q1_w, q1_x, q1_y, q1_z, q2_w ... "
+        "q2_z: unit quaternions that turn from the sensor's frame to an earth frame with z up, each with a heading of its "
+        "own.\n"
         "\n"
         "Columns written: t_s, flexion_deg; with two axes also pronation_deg, carrying_deg, heading_offset_deg. There is "
         "a row for each row of the recording; its angles are empty while the calibration is not ready. A .sto file "

@@ -157,8 +157,8 @@ def measure(settings: Settings, report: Report) -> None:
     report.text("Angles after 20 s, against those of the optical references (aligned to the IMUs by the rates, jumps "
                 "left out, axes fitted to them, one constant offset per recording and angle). RMSE in degrees over "
                 "windows of 10 s; a window without angles counts as infinite. `first 20 s`: `jointcal angles "
-                "--calibration` with the axes of the first 20 s and the heading followed; `on its own`: axes (and for two "
-                "axes heading) as the engine has them at each moment. Orientations by VQF.")
+                "--calibration` with the axes of the first 20 s and the heading followed; `on its own`: axes (and for "
+                "two axes heading) as the engine has them at each moment. Orientations by VQF.")
     rows = []
     for result in found:
         for way, parts in result["rms"].items():
