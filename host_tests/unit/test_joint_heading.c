@@ -176,6 +176,31 @@ static void pairs_without_a_value_or_out_of_order_change_nothing(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &follower, sizeof before);
 }
 
+static void a_vertical_axis_of_two_tells_nothing(void)
+{
+    jcal_joint_heading_t follower;
+    start(&follower, &ELBOW, 10.0f);
+    for (uint64_t k = 1u; k <= 500u; ++k) {
+        pose_t pose = moving(0.02 * (double)k, 1.0);
+        pose.q_b1_e1 = pose_turn(3.0 * DEG * sin(0.1 * (double)k), 1.0, 0.3, 0.0);
+        const jcal_orientation_pair_t pair = pose_sensors(&ELBOW, &pose, 20000u * k);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_joint_heading_push(&follower, &pair));
+        TEST_ASSERT_FALSE(get(&follower).known);
+    }
+}
+
+static void one_pair_after_a_gap_does_not_outweigh_what_came_before(void)
+{
+    jcal_joint_heading_t follower;
+    start(&follower, &HINGE, 5.0f);
+    for (int k = 0; k < 200; ++k) {
+        push(&follower, &HINGE, 0.05 * k, 0.5);
+    }
+    push(&follower, &HINGE, 13.0, 1.5);
+    /* It counts for 0.1 s beside some 3 s that are left of the others. */
+    TEST_ASSERT_TRUE(pose_apart((double)get(&follower).heading_rad, 0.5) < 0.1);
+}
+
 static void better_axes_are_taken_over(void)
 {
     for (int kind = 0; kind < 2; ++kind) {
@@ -236,6 +261,8 @@ int main(void)
     RUN_TEST(one_posture_of_two_axes_tells_nothing);
     RUN_TEST(flexion_alone_of_two_axes_tells_nothing_wrong);
     RUN_TEST(pairs_without_a_value_or_out_of_order_change_nothing);
+    RUN_TEST(a_vertical_axis_of_two_tells_nothing);
+    RUN_TEST(one_pair_after_a_gap_does_not_outweigh_what_came_before);
     RUN_TEST(better_axes_are_taken_over);
     RUN_TEST(arguments_are_checked);
     return UNITY_END();
