@@ -39,6 +39,7 @@ MEASUREMENTS = {
     "two_dof": "2-DoF joint: whole rig recordings, and every 5, 10, 20 s window",
     "two_dof_sim": "2-DoF joint, simulated: coverage, sharpness, what must never be ready",
     "moved": "slips: how soon they are noticed, false alarms",
+    "angles": "joint angles of the rig beside the optical ones",
     "cost": "time and memory, beside qmt",
 }
 MODULES = {"time": "time_to_ready"}  # where the name differs

@@ -43,3 +43,55 @@ def csv(cells, columns=None, end="\n"):
     """A file of a header and rows of text."""
     lines = [",".join(columns or COLUMNS)] + [",".join(row) for row in cells]
     return end.join(lines) + end
+
+
+ORIENTATION_COLUMNS = [f"q{sensor}_{part}" for sensor in (1, 2) for part in "wxyz"]
+
+
+def multiply(p, q):
+    """Hamilton product of quaternions (w, x, y, z)."""
+    (a, b, c, d), (e, f, g, h) = p, q
+    return [a * e - b * f - c * g - d * h, a * f + b * e + c * h - d * g, a * g - b * h + c * e + d * f,
+            a * h + b * g - c * f + d * e]
+
+
+def turn(angle, axis):
+    """Rotation by `angle` about coordinate axis 0, 1 or 2."""
+    q = [math.cos(angle / 2), 0.0, 0.0, 0.0]
+    q[1 + axis] = math.sin(angle / 2)
+    return q
+
+
+def joint_orientations(t, flexion, heading, carrying=0.0, pronation=0.0):
+    """Eight numbers: sensors whose frames are those of the segments, the second one in an earth frame of its own."""
+    tilt = turn(math.pi / 2 + 0.6 * math.cos(0.5 * t), 0)
+    q1 = multiply(multiply(turn(0.8 * math.sin(0.7 * t), 2), turn(0.5 * math.sin(0.9 * t), 1)), tilt)
+    joint = multiply(multiply(turn(flexion, 2), turn(carrying, 0)), turn(pronation, 1))
+    return q1 + multiply(turn(-heading, 2), multiply(q1, joint))
+
+
+def bend(t):
+    """Flexion in hinge_rows()."""
+    return 0.8 * math.sin(2.5 * t)
+
+
+def hinge_with_orientations(seconds, heading=0.7):
+    """hinge_rows() and the orientations that belong to its joint."""
+    return [row + joint_orientations(row[0], bend(row[0]), heading) for row in hinge_rows(seconds)]
+
+
+def elbow(t):
+    """Flexion and pronation of two_dof_rows()."""
+    return 0.9 + 0.8 * math.sin(1.9 * t), 1.0 * math.sin(1.3 * t + 1.0)
+
+
+def two_dof_rows(seconds, heading=-1.2, carrying=0.15, rate_hz=50.0):
+    """Two axes, z of sensor 1 and y of sensor 2; what gyroscopes and accelerometers say is of no account here."""
+    noise = random.Random(2)
+    rows = []
+    for k in range(int(seconds * rate_hz)):
+        t = k / rate_hz
+        flexion, pronation = elbow(t)
+        imus = [noise.gauss(0, 1) for _ in range(12)]
+        rows.append([t] + imus + joint_orientations(t, flexion, heading, carrying, pronation))
+    return rows

@@ -63,6 +63,42 @@ static void atan2_passes_nan_on(void)
     TEST_ASSERT_TRUE(isnan(jcal_atan2(NAN, 0.0f)));
 }
 
+static void assert_cis(float x)
+{
+    const jcal_plane_t got = jcal_cis(x);
+    TEST_ASSERT_TRUE(fabs((double)got.re - cos((double)x)) < (double)JCAL_CIS_ERROR);
+    TEST_ASSERT_TRUE(fabs((double)got.im - sin((double)x)) < (double)JCAL_CIS_ERROR);
+}
+
+static void cis_keeps_its_error_bound_over_its_whole_range(void)
+{
+    for (int k = -200000; k <= 200000; ++k) {
+        assert_cis((float)k * 5e-3f);
+        assert_cis((float)k * 1.7e-5f);
+    }
+    for (int k = -636; k <= 636; ++k) {
+        assert_cis((float)((double)k * PI / 2.0));
+        assert_cis((float)(((double)k + 0.5) * PI / 2.0));
+    }
+}
+
+static void cis_is_exact_near_zero_in_the_relative_sense(void)
+{
+    for (float x = 1e-30f; x < 0.1f; x *= 1.7f) {
+        TEST_ASSERT_TRUE(fabs(((double)jcal_cis(x).im / sin((double)x)) - 1.0) < 2e-7);
+        TEST_ASSERT_EQUAL_FLOAT(-jcal_cis(x).im, jcal_cis(-x).im);
+    }
+}
+
+static void cis_refuses_what_is_outside_its_range(void)
+{
+    const float refused[] = {NAN, INFINITY, -INFINITY, 1001.0f, -1001.0f};
+    for (size_t k = 0; k < sizeof refused / sizeof refused[0]; ++k) {
+        TEST_ASSERT_TRUE(isnan(jcal_cis(refused[k]).re));
+        TEST_ASSERT_TRUE(isnan(jcal_cis(refused[k]).im));
+    }
+}
+
 static void constants_are_the_nearest_floats(void)
 {
     TEST_ASSERT_EQUAL_FLOAT((float)PI, JCAL_PI);
@@ -117,6 +153,9 @@ int main(void)
     RUN_TEST(atan2_is_exact_near_zero_in_the_relative_sense);
     RUN_TEST(atan2_on_the_axes_and_diagonals_is_right);
     RUN_TEST(atan2_passes_nan_on);
+    RUN_TEST(cis_keeps_its_error_bound_over_its_whole_range);
+    RUN_TEST(cis_is_exact_near_zero_in_the_relative_sense);
+    RUN_TEST(cis_refuses_what_is_outside_its_range);
     RUN_TEST(constants_are_the_nearest_floats);
     RUN_TEST(mean_plus_2_sigma_agrees_with_the_integral_for_every_shape_and_direction);
     RUN_TEST(mean_plus_2_sigma_of_nothing_is_nothing);

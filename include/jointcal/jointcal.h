@@ -13,6 +13,8 @@
 #include "jointcal/gate.h"
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_window.h"
+#include "jointcal/joint_angles.h"
+#include "jointcal/joint_heading.h"
 #include "jointcal/orientation.h"
 #include "jointcal/quat.h"
 #include "jointcal/status.h"

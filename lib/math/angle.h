@@ -5,6 +5,7 @@
 #define JCAL_ANGLE_H
 
 #include "jointcal/config.h"
+#include "jointcal/types.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -23,6 +24,17 @@ extern "C" {
 /// Both infinite gives NaN; the scale of (x, y) does not matter as long as neither overflows.
 /// Cost:     2 divisions, 6 multiply-adds, no loop.
 float jcal_atan2(float y, float x);
+
+/// Largest argument that jcal_cis takes, rad.
+#define JCAL_CIS_MAX_RAD 1000.0f
+
+/// Largest error of either part of jcal_cis: rounding; the polynomials' own is 2e-9.
+#define JCAL_CIS_ERROR 2e-7f
+
+/// exp(i x) = cos x + i sin x for |x| <= JCAL_CIS_MAX_RAD; NaN for everything else.
+///
+/// Cost:     about 20 multiply-adds, no division, no loop.
+jcal_plane_t jcal_cis(float x);
 
 /// mu + 2 sigma of the length of a Gaussian vector in the plane, zero mean: the local uncertainty of Algorithm 4.
 ///

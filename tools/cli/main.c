@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The program `jointcal`: picks the subcommand. */
+#include "angles_command.h"
 #include "hinge_command.h"
 #include "jointcal/jointcal.h"
 #include "message.h"
@@ -16,10 +17,13 @@ typedef struct {
     char *full_name; /* argp shows argv[0] in its messages */
 } command_t;
 
+static char angles_name[] = "jointcal angles";
 static char hinge_name[] = "jointcal hinge";
 static char stream_name[] = "jointcal stream";
 
-static const command_t COMMANDS[] = {{"hinge", hinge_command, hinge_name}, {"stream", stream_command, stream_name}};
+static const command_t COMMANDS[] = {{"angles", angles_command, angles_name},
+                                     {"hinge", hinge_command, hinge_name},
+                                     {"stream", stream_command, stream_name}};
 
 #define COMMAND_COUNT (sizeof COMMANDS / sizeof COMMANDS[0])
 
@@ -53,26 +57,28 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         choice->command = find_command(argument);
         choice->index = state->next - 1;
         if (choice->command == NULL) {
-            argp_error(state, "no subcommand '%s'; there is: hinge, stream", argument);
+            argp_error(state, "no subcommand '%s'; there is: angles, hinge, stream", argument);
         }
         state->next = state->argc;
         return 0;
     }
     if (key == ARGP_KEY_NO_ARGS) {
-        argp_error(state, "which subcommand? There is: hinge, stream");
+        argp_error(state, "which subcommand? There is: angles, hinge, stream");
     }
     return ARGP_ERR_UNKNOWN;
 }
 
 static const struct argp PARSER = {
     .parser = parse,
-    .args_doc = "hinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]",
+    .args_doc =
+        "angles RECORDING.csv --joint KIND [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]",
     .doc = "Finds out how the IMUs of a recording sit on the two sides of a joint.\v"
            "Subcommands:\n"
+           "  angles   the angles of a joint, from these axes\n"
            "  hinge    both axes of a joint with one axis, like a knee or a finger joint\n"
            "  stream   plays a recording to a hub and writes what the hub finds\n"
            "\n"
-           "'jointcal hinge --help' and 'jointcal stream --help' tell all about them.",
+           "'jointcal hinge --help' and so on tell all about them.",
 };
 
 int main(int argc, char **argv)

@@ -9,9 +9,11 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const COLUMN_NAMES[RECORDING_COLUMNS] = {"t_s",    "gyr1_x", "gyr1_y", "gyr1_z", "acc1_x",
-                                                            "acc1_y", "acc1_z", "gyr2_x", "gyr2_y", "gyr2_z",
-                                                            "acc2_x", "acc2_y", "acc2_z"};
+#define ALL_COLUMNS (RECORDING_COLUMNS + RECORDING_ORIENTATION_COLUMNS)
+
+static const char *const COLUMN_NAMES[ALL_COLUMNS] = {
+    "t_s",    "gyr1_x", "gyr1_y", "gyr1_z", "acc1_x", "acc1_y", "acc1_z", "gyr2_x", "gyr2_y", "gyr2_z", "acc2_x",
+    "acc2_y", "acc2_z", "q1_w",   "q1_x",   "q1_y",   "q1_z",   "q2_w",   "q2_x",   "q2_y",   "q2_z"};
 
 __attribute__((format(printf, 4, 5))) static recording_event_t bad(recording_t *recording, uint64_t line,
                                                                    uint64_t column, const char *format, ...)
@@ -46,18 +48,18 @@ static const char *shown(const char *text, char buffer[static 32])
     return buffer;
 }
 
-/* Number of our column that is called so, or RECORDING_COLUMNS. */
+/* Number of our column that is called so, or ALL_COLUMNS. */
 static size_t column_named(const char *name)
 {
     size_t k = 0;
-    while (k < RECORDING_COLUMNS && strcmp(name, COLUMN_NAMES[k]) != 0) {
+    while (k < ALL_COLUMNS && strcmp(name, COLUMN_NAMES[k]) != 0) {
         k++;
     }
     return k;
 }
 
 /* Names every column that is missing. */
-static recording_event_t check_missing(recording_t *recording, const bool found[RECORDING_COLUMNS])
+static recording_event_t check_missing(recording_t *recording, const bool found[ALL_COLUMNS])
 {
     char names[160] = "";
     size_t length = 0;
@@ -89,12 +91,12 @@ static recording_event_t read_header(recording_t *recording)
     if (event != CSV_ROW) {
         return csv_trouble(recording, event);
     }
-    bool found[RECORDING_COLUMNS] = {false};
+    bool found[ALL_COLUMNS] = {false};
     recording->header_cells = recording->csv.cell_count;
     for (size_t k = 0; k < recording->header_cells; k++) {
         const csv_cell_t *cell = &recording->csv.cells[k];
         const size_t column = column_named(cell->text);
-        if (column == RECORDING_COLUMNS) {
+        if (column == ALL_COLUMNS) {
             continue;
         }
         if (found[column]) {
@@ -102,6 +104,10 @@ static recording_event_t read_header(recording_t *recording)
         }
         found[column] = true;
         recording->index[column] = k;
+    }
+    recording->has_orientations = true;
+    for (size_t k = RECORDING_COLUMNS; k < ALL_COLUMNS; k++) {
+        recording->has_orientations = recording->has_orientations && found[k];
     }
     return check_missing(recording, found);
 }
@@ -126,7 +132,7 @@ static recording_event_t check_length(recording_t *recording)
 static recording_event_t not_a_number(recording_t *recording, size_t column)
 {
     const csv_cell_t *cell = &recording->csv.cells[recording->index[column]];
-    if (column_named(cell->text) != RECORDING_COLUMNS) {
+    if (column_named(cell->text) != ALL_COLUMNS) {
         return bad(recording, cell->line, 0, "a second header line");
     }
     char buffer[32];
@@ -160,14 +166,18 @@ recording_event_t recording_next(recording_t *recording, recording_row_t *row)
         return not_a_number(recording, 0);
     }
     row->has_time = time == NUMBER_FINITE;
-    float values[RECORDING_COLUMNS];
-    for (size_t k = 1; k < RECORDING_COLUMNS; k++) {
+    float values[ALL_COLUMNS] = {0.0f};
+    const size_t count = recording->want_orientations ? ALL_COLUMNS : RECORDING_COLUMNS;
+    for (size_t k = 1; k < count; k++) {
         if (number_to_float(cells[recording->index[k]].text, &values[k]) == NUMBER_NOT_A_NUMBER) {
             return not_a_number(recording, k);
         }
     }
     row->imu1 = (jcal_imu_t){{values[1], values[2], values[3]}, {values[4], values[5], values[6]}};
     row->imu2 = (jcal_imu_t){{values[7], values[8], values[9]}, {values[10], values[11], values[12]}};
+    /* Without orientations these are zero, which is no quaternion either. */
+    row->q1 = (jcal_quat_t){values[13], values[14], values[15], values[16]};
+    row->q2 = (jcal_quat_t){values[17], values[18], values[19], values[20]};
     return RECORDING_ROW;
 }
 

@@ -9,6 +9,8 @@
 
 /// t_s and twelve sensor components.
 #define RECORDING_COLUMNS 13
+/// Two quaternions, which need not be there.
+#define RECORDING_ORIENTATION_COLUMNS 8
 
 typedef enum {
     RECORDING_ROW,    ///< A row was read.
@@ -30,13 +32,17 @@ typedef struct {
     int64_t t_us;   ///< As in the file, from whatever origin.
     jcal_imu_t imu1;
     jcal_imu_t imu2;
+    jcal_quat_t q1;  ///< Sensor to earth; all zero unless wanted.
+    jcal_quat_t q2;
 } recording_row_t;
 
 typedef struct {
     csv_t csv;
     recording_fault_t fault;
     size_t header_cells;
-    size_t index[RECORDING_COLUMNS]; /* cell of each column we want */
+    bool has_orientations;   ///< The header names all of q1_w ... q2_z.
+    bool want_orientations;  ///< Set after recording_open: read them, and complain about text in them.
+    size_t index[RECORDING_COLUMNS + RECORDING_ORIENTATION_COLUMNS]; /* cell of each column we want */
 } recording_t;
 
 /// Reads the header. RECORDING_ROW if all columns are there, else RECORDING_BAD or RECORDING_FAILED.
