@@ -7,16 +7,15 @@
 #include "calibration_file.h"
 #include "input.h"
 #include "message.h"
+#include "orientations.h"
 #include "progress.h"
 #include "recording.h"
+#include "run.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* The library's time of the first row that has one. Rows before it in time must still get a smaller one. */
-#define ORIGIN_US ((uint64_t)1 << 62)
 
 /* Memory of the heading unless --window says otherwise, s. */
 #define MEMORY_S 10.0f
@@ -34,6 +33,7 @@ typedef struct {
     angles_options_t options;
     input_t input;
     recording_t recording;
+    orientations_t *orientations;
     progress_t progress;
     angles_output_t output;
     jcal_hinge_t hinge;
@@ -43,10 +43,7 @@ typedef struct {
     joint_t joint;
     jcal_joint_heading_t follower;
     bool has_follower;
-    bool has_origin;
-    int64_t origin_us;  /* time of the first row, as in the file */
-    uint64_t pushed_us; /* time of the row before, in the library's time */
-    bool at_end;        /* the last row whose orientations were of use had angles */
+    bool at_end; /* the last row whose orientations were of use had angles */
 } session_t;
 
 static exit_status_t start_engine(session_t *session)
@@ -100,24 +97,11 @@ static void set_axes(session_t *session, jcal_vec3_t axis1, jcal_vec3_t axis2, f
     joint->known = true;
 }
 
-/* Takes note of a row's time; gives the row its time for the library. */
-static uint64_t advance_time(session_t *session, const recording_row_t *row)
-{
-    if (!row->has_time) {
-        return session->pushed_us;
-    }
-    if (!session->has_origin) {
-        session->has_origin = true;
-        session->origin_us = row->t_us;
-    }
-    session->pushed_us = ORIGIN_US + (uint64_t)row->t_us - (uint64_t)session->origin_us;
-    return session->pushed_us;
-}
-
 /* The calibration of this recording, up to this row. */
-static bool update_engine(session_t *session, const recording_row_t *row, const jcal_orientation_pair_t *orientations)
+static bool update_engine(session_t *session, const oriented_row_t *oriented)
 {
-    session->joint.known = false;
+    const recording_row_t *row = &oriented->row;
+    const jcal_orientation_pair_t *orientations = &oriented->pair;
     if (session->options.hinge) {
         jcal_pair_t pair = {orientations->t_us, row->imu1, row->imu2};
         if (!row->has_time) {
@@ -127,12 +111,17 @@ static bool update_engine(session_t *session, const recording_row_t *row, const 
         if (jcal_hinge_update(&session->hinge, &pair) < 0 || jcal_hinge_get(&session->hinge, &result) != JCAL_OK) {
             return false;
         }
+        session->joint.known = false;
         if (result.status == JCAL_READY) {
             set_axes(session, result.axis1, result.axis2, 0.0f);
         }
         return true;
     }
+    if (oriented->reject != JCAL_REJECT_NONE && oriented->reject != JCAL_REJECT_GAP) {
+        return true; /* nothing new */
+    }
     jcal_two_dof_result_t result;
+    session->joint.known = false;
     if (jcal_two_dof_update(&session->two_dof, orientations) < 0 ||
         jcal_two_dof_get(&session->two_dof, &result) != JCAL_OK) {
         return false;
@@ -185,16 +174,20 @@ static bool compute(const session_t *session, const jcal_orientation_pair_t *ori
     return true;
 }
 
-static exit_status_t run_row(session_t *session, const recording_row_t *row)
+/* True where there are orientations: of a repeated reading or after a gap, too. */
+static bool is_usable(jcal_reject_t reject)
 {
-    jcal_orientation_pair_t orientations = {advance_time(session, row), row->q1, row->q2};
-    if (!row->has_time) {
-        orientations.q1.w = NAN; /* the library's time has no NaN; the sample has */
-    }
-    const jcal_reject_t reject = jcal_orientation_gate_check(&session->gate, &session->gate_config, &orientations);
-    const bool usable = reject == JCAL_REJECT_NONE || reject == JCAL_REJECT_GAP || reject == JCAL_REJECT_REPEATED;
+    return reject == JCAL_REJECT_NONE || reject == JCAL_REJECT_GAP || reject == JCAL_REJECT_REPEATED;
+}
+
+static exit_status_t run_row(session_t *session, const oriented_row_t *oriented)
+{
+    const recording_row_t *row = &oriented->row;
+    jcal_orientation_pair_t orientations = oriented->pair;
+    const bool usable = is_usable(oriented->reject) &&
+                        is_usable(jcal_orientation_gate_check(&session->gate, &session->gate_config, &orientations));
     angles_row_t out = {row->t_us, row->has_time, false, {0.0f, 0.0f, 0.0f}, 0.0f};
-    bool understood = session->options.calibration != NULL || update_engine(session, row, &orientations);
+    bool understood = session->options.calibration != NULL || update_engine(session, oriented);
     if (usable && understood) {
         jcal_heading_t heading;
         orientations.q1 = jcal_quat_normalise(orientations.q1);
@@ -214,24 +207,11 @@ static exit_status_t run_row(session_t *session, const recording_row_t *row)
     return angles_output_row(&session->output, &out);
 }
 
-/* Says why the recording could not be read on. */
-static exit_status_t give_up(session_t *session, recording_event_t event)
-{
-    const recording_fault_t *fault = &session->recording.fault;
-    progress_clear(&session->progress);
-    if (event == RECORDING_BAD) {
-        complain(session->input.name, fault->line, fault->column, "%s", fault->text);
-        return EXIT_INPUT;
-    }
-    complain(session->input.name, 0, 0, "%s", strerror((session->input.error != 0) ? session->input.error : ENOMEM));
-    return EXIT_TROUBLE;
-}
-
 static exit_status_t run_rows(session_t *session)
 {
-    recording_row_t row;
-    recording_event_t event = recording_next(&session->recording, &row);
-    for (; event == RECORDING_ROW; event = recording_next(&session->recording, &row)) {
+    oriented_row_t row;
+    recording_event_t event = orientations_next(session->orientations, &row);
+    for (; event == RECORDING_ROW; event = orientations_next(session->orientations, &row)) {
         const exit_status_t status = run_row(session, &row);
         if (status != EXIT_READY) {
             return status;
@@ -239,7 +219,8 @@ static exit_status_t run_rows(session_t *session)
         progress_show(&session->progress, session->recording.csv.bytes);
     }
     if (event != RECORDING_END) {
-        return give_up(session, event);
+        progress_clear(&session->progress);
+        return run_give_up(&session->input, &session->recording, event);
     }
     progress_clear(&session->progress);
     const exit_status_t status = angles_output_end(&session->output);
@@ -255,17 +236,20 @@ static exit_status_t run_recording(session_t *session)
     const recording_event_t event = recording_open(recording, input_read, &session->input);
     exit_status_t status = EXIT_INPUT;
     if (event != RECORDING_ROW) {
-        status = give_up(session, event);
-    } else if (!recording->has_orientations) {
-        complain(session->input.name, 1, 0, "missing columns q1_w, q1_x, q1_y, q1_z, q2_w, q2_x, q2_y, q2_z");
+        status = run_give_up(&session->input, recording, event);
+    } else if (!orientations_possible(&session->input, recording)) {
+        /* it has said why */
+    } else if ((session->orientations = orientations_open(recording)) == NULL) {
+        complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
+        status = EXIT_TROUBLE;
     } else {
-        recording->want_orientations = true;
         status = angles_output_open(&session->output, &session->options);
         if (status == EXIT_READY) {
             progress_start(&session->progress, session->input.size);
             status = run_rows(session);
         }
         angles_output_close(&session->output);
+        orientations_close(session->orientations);
     }
     recording_close(recording);
     return status;

@@ -11,14 +11,13 @@
 #include "number.h"
 #include "progress.h"
 #include "recording.h"
+#include "run.h"
+#include "timeline.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* The library's time of the first row that has one. Rows before it in time must still get a smaller one. */
-#define ORIGIN_US ((uint64_t)1 << 62)
 
 /* Everything of one run; too big for comfort on the stack. */
 typedef struct {
@@ -28,19 +27,9 @@ typedef struct {
     engine_t engine;
     progress_t progress;
     hinge_report_t report;
-    uint64_t pushed_us; /* time of the row before, in the library's time */
-    int64_t next_us;    /* when the next estimate is due, as in the file */
+    timeline_t timeline;
+    int64_t next_us; /* when the next estimate is due, as in the file */
 } session_t;
-
-/* Each event is flushed, so that readers of a pipe get it at once. */
-static exit_status_t flush(void)
-{
-    if (fflush(stdout) != 0 || ferror(stdout) != 0) {
-        complain("standard output", 0, 0, "%s", strerror(errno));
-        return EXIT_TROUBLE;
-    }
-    return EXIT_READY;
-}
 
 static exit_status_t emit(session_t *session, const char *event)
 {
@@ -52,27 +41,23 @@ static exit_status_t emit(session_t *session, const char *event)
     } else if (session->options.every_us > 0) {
         hinge_print_event(stdout, event, &session->report);
     }
-    return flush();
+    return run_flush();
 }
 
 /* Takes note of a row's time; gives the row its time for the library. */
 static uint64_t advance_time(session_t *session, const recording_row_t *row)
 {
     hinge_report_t *report = &session->report;
-    if (!row->has_time) {
-        return session->pushed_us;
+    timeline_t *timeline = &session->timeline;
+    const bool first = !timeline->has_time;
+    const uint64_t now_us = timeline_advance(timeline, row);
+    report->has_time = timeline->has_time;
+    report->start_us = timeline->start_us;
+    report->t_us = timeline->latest_us;
+    if (first) {
+        session->next_us = timeline->start_us + session->options.every_us;
     }
-    if (!report->has_time) {
-        report->has_time = true;
-        report->start_us = row->t_us;
-        report->t_us = row->t_us;
-        session->next_us = row->t_us + session->options.every_us;
-    }
-    if (row->t_us > report->t_us) {
-        report->t_us = row->t_us;
-    }
-    session->pushed_us = ORIGIN_US + (uint64_t)row->t_us - (uint64_t)report->start_us;
-    return session->pushed_us;
+    return now_us;
 }
 
 static bool push(session_t *session, const recording_row_t *row)
@@ -116,19 +101,6 @@ static exit_status_t report_changes(session_t *session)
     return estimate_due(session) ? emit(session, "estimate") : EXIT_READY;
 }
 
-/* Says why the recording could not be read on. */
-static exit_status_t give_up(session_t *session, recording_event_t event)
-{
-    const recording_fault_t *fault = &session->recording.fault;
-    progress_clear(&session->progress);
-    if (event == RECORDING_BAD) {
-        complain(session->input.name, fault->line, fault->column, "%s", fault->text);
-        return EXIT_INPUT;
-    }
-    complain(session->input.name, 0, 0, "%s", strerror((session->input.error != 0) ? session->input.error : ENOMEM));
-    return EXIT_TROUBLE;
-}
-
 static exit_status_t run_rows(session_t *session)
 {
     recording_row_t row;
@@ -145,7 +117,8 @@ static exit_status_t run_rows(session_t *session)
         progress_show(&session->progress, session->recording.csv.bytes);
     }
     if (event != RECORDING_END) {
-        return give_up(session, event);
+        progress_clear(&session->progress);
+        return run_give_up(&session->input, &session->recording, event);
     }
     engine_get(&session->engine, &session->report.result);
     const exit_status_t status = emit(session, "end");
@@ -166,7 +139,8 @@ static exit_status_t run_recording(session_t *session)
     progress_start(&session->progress, session->input.size);
     engine_get(&session->engine, &session->report.result);
     session->report.max_bound_rad = session->options.engine.config.hinge.max_bound_rad;
-    const exit_status_t status = (event == RECORDING_ROW) ? run_rows(session) : give_up(session, event);
+    const exit_status_t status =
+        (event == RECORDING_ROW) ? run_rows(session) : run_give_up(&session->input, &session->recording, event);
     recording_close(&session->recording);
     engine_stop(&session->engine);
     return status;

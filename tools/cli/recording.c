@@ -82,6 +82,27 @@ static recording_event_t check_missing(recording_t *recording, const bool found[
                other_separator ? " (cells must be separated by commas)" : "");
 }
 
+/* Which columns of orientations are there. */
+static void note_orientations(recording_t *recording, const bool found[ALL_COLUMNS])
+{
+    size_t count = 0;
+    size_t length = 0;
+    char names[sizeof recording->lacks] = "";
+    for (size_t k = RECORDING_COLUMNS; k < ALL_COLUMNS; k++) {
+        if (found[k]) {
+            count++;
+        } else {
+            /* All names together are shorter than the buffer. */
+            length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", (length == 0) ? "" : ", ",
+                                       COLUMN_NAMES[k]);
+        }
+    }
+    recording->has_orientations = count == RECORDING_ORIENTATION_COLUMNS;
+    if (count > 0) {
+        memcpy(recording->lacks, names, sizeof names);
+    }
+}
+
 static recording_event_t read_header(recording_t *recording)
 {
     const csv_event_t event = csv_next(&recording->csv);
@@ -105,10 +126,7 @@ static recording_event_t read_header(recording_t *recording)
         found[column] = true;
         recording->index[column] = k;
     }
-    recording->has_orientations = true;
-    for (size_t k = RECORDING_COLUMNS; k < ALL_COLUMNS; k++) {
-        recording->has_orientations = recording->has_orientations && found[k];
-    }
+    note_orientations(recording, found);
     return check_missing(recording, found);
 }
 

@@ -41,6 +41,7 @@ typedef struct {
     recording_fault_t fault;
     size_t header_cells;
     bool has_orientations;   ///< The header names all of q1_w ... q2_z.
+    char lacks[64];          ///< Those of them that it does not name, if it names others; else empty.
     bool want_orientations;  ///< Set after recording_open: read them, and complain about text in them.
     size_t index[RECORDING_COLUMNS + RECORDING_ORIENTATION_COLUMNS]; /* cell of each column we want */
 } recording_t;
