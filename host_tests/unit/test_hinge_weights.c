@@ -181,28 +181,43 @@ static void a_sample_stands_for_the_time_since_the_last_one_up_to_50_ms(void)
     }
 }
 
+/* Slices that 4 s of motion are charged: four times as many once ready; 2 for a judgement, the last of 8, and 3 for a block that
+   closes. At most 10 slices per sample. Every other cycle may leave the global check out, so that the count repeats after 16. */
+static uint32_t slices_in_four_seconds(double rate_hz)
+{
+    motion_t motion = motion_lively(7);
+    motion.rate_hz = rate_hz;
+    uint32_t paid = 0;
+    for (uint32_t k = 0; k <= (uint32_t)(4.0 * rate_hz); ++k) {
+        const uint8_t before = engine.slice;
+        const uint32_t price = (engine.verdict.status == (uint8_t)JCAL_READY) ? 4u : 1u;
+        const jcal_pair_t p = motion_sample(&motion, k);
+        jcal_hinge_consume(&engine, &p);
+        const uint32_t done = (engine.slice + 16u - before) % 16u;
+        TEST_ASSERT_TRUE(done <= 10u);
+        paid += (done * price) + (((before % 8u) + done) / 8u);
+        paid += (engine.has_point && !(engine.refine.block.time_s > 0.0f)) ? 3u : 0u;
+    }
+    return paid;
+}
+
 static void the_work_per_second_does_not_depend_on_the_rate(void)
 {
-    /* 5 ms of credit pay a slice, 20 ms once it is ready; a judgement, the last of 8 slices, costs 2, and a block that closes 3.
-       At most 10 slices per sample. Every other cycle may leave the global check out, so that the count repeats after 16. */
     const double rates_hz[4] = {20.0, 25.0, 50.0, 200.0};
     for (int i = 0; i < 4; ++i) {
-        motion_t motion = motion_lively(7);
-        motion.rate_hz = rates_hz[i];
         setUp();
-        uint32_t paid = 0;
-        for (uint32_t k = 0; k <= (uint32_t)(4.0 * rates_hz[i]); ++k) {
-            const uint8_t before = engine.slice;
-            const uint32_t price = (engine.verdict.status == (uint8_t)JCAL_READY) ? 4u : 1u;
-            const jcal_pair_t p = motion_sample(&motion, k);
-            jcal_hinge_consume(&engine, &p);
-            const uint32_t done = (engine.slice + 16u - before) % 16u;
-            TEST_ASSERT_TRUE(done <= 10u);
-            paid += (done * price) + (((before % 8u) + done) / 8u);
-            paid += (engine.has_point && !(engine.refine.block.time_s > 0.0f)) ? 3u : 0u;
-        }
         /* What is left unpaid, and a slice paid at the old price where the calibration became ready. */
-        TEST_ASSERT_UINT32_WITHIN(12, 800, paid);
+        TEST_ASSERT_UINT32_WITHIN(12, 800, slices_in_four_seconds(rates_hz[i]));
+    }
+}
+
+static void the_config_says_how_much_work_is_done_per_second(void)
+{
+    const float slices_per_s[4] = {20.0f, 50.0f, 100.0f, 800.0f};
+    for (int i = 0; i < 4; ++i) {
+        setUp();
+        engine.cfg.slices_per_s = slices_per_s[i];
+        TEST_ASSERT_UINT32_WITHIN(12, (uint32_t)(4.0f * slices_per_s[i]), slices_in_four_seconds(200.0));
     }
 }
 
@@ -216,5 +231,6 @@ int main(void)
     RUN_TEST(the_refined_axes_leave_out_what_lies_beyond_a_second_of_rest);
     RUN_TEST(a_sample_stands_for_the_time_since_the_last_one_up_to_50_ms);
     RUN_TEST(the_work_per_second_does_not_depend_on_the_rate);
+    RUN_TEST(the_config_says_how_much_work_is_done_per_second);
     return UNITY_END();
 }

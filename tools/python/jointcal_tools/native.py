@@ -37,7 +37,8 @@ class Options(ctypes.Structure):
     _fields_ = [("engine", ctypes.c_int32), ("sign_hint", ctypes.c_int32), ("max_bound_rad", ctypes.c_float),
                 ("gyr_noise_rad_s", ctypes.c_float), ("acc_noise_m_s2", ctypes.c_float),
                 ("lever_arm_m", ctypes.c_float), ("gyr_bias_rad_s", ctypes.c_float),
-                ("acc_bias_m_s2", ctypes.c_float), ("n_max", ctypes.c_int32), ("half_window", ctypes.c_int32),
+                ("acc_bias_m_s2", ctypes.c_float), ("slices_per_s", ctypes.c_float), ("n_max", ctypes.c_int32),
+                ("half_window", ctypes.c_int32),
                 ("acc_min", ctypes.c_int32), ("accept_count", ctypes.c_int32), ("seed", ctypes.c_uint32),
                 ("w0", ctypes.c_float), ("energy_max_rad2_s2", ctypes.c_float), ("accept_bound_rad", ctypes.c_float),
                 ("solve_period_s", ctypes.c_float)]
