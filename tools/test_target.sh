@@ -3,7 +3,7 @@
 # Builds and tests for Cortex-M processors in QEMU: tools/test_target.sh [all | quick | PRESET...]
 #
 # Installs what is missing (as root; otherwise it prints the command). all (the default, part of tools/test.sh): every unit test on
-# every preset, same bits on host and targets, the hub in QEMU, the budget. quick: m4f, hub and budget. PRESET: its tests only.
+# m4f, m3, m7 and m33, same bits on host and targets, the hub in QEMU, the budget. quick: m4f, hub and budget. PRESET: its tests only.
 # Log files go to build/logs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
