@@ -34,6 +34,7 @@ MEASUREMENTS = {
     "bounds": "coverage and sharpness of the bounds, simulated",
     "scenarios": "the four scenarios of OLS20 beside Algorithm 4",
     "time": "time to ready",
+    "slices": "what fewer slices of work per second cost in time to ready",
     "bias": "what the bias states buy",
     "reference": "the stream engine beside float64, rig and simulated",
     "cost": "time and memory, beside qmt",

@@ -55,9 +55,11 @@
 #define SLICES_PER_S 200.0f
 #define PRICE_READY 4.0f
 #define SLICES_MAX 10u
-/// A judgement, and a block of the refined axes that closes, cost more than other slices.
+/// A judgement, and a block of the refined axes that closes, cost more than other slices. Where slices are few, a block costs this
+/// much time or that of its step, so that blocks leave some to the other slices, and there is no other work in that step.
 #define JUDGE_SLICES 2.0f
 #define CLOSE_SLICES 3.0f
+#define CLOSE_S 0.015f
 #define SLICES_PER_CYCLE 8u
 #define SETTLED_ROUNDS 4u
 
@@ -220,8 +222,10 @@ static void halve(jcal_hinge_t *self)
     self->weight_acc2 *= 0.5f;
 }
 
-static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+/// Returns true if a block of the refined axes closed.
+static bool sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
 {
+    bool closed = false;
     watch(self, sample);
     const float noise = self->cfg.gyr_noise_rad_s;
     const float gyr_weight =
@@ -235,13 +239,14 @@ static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     if (self->rest_s >= REST_MAX_S) {
         jcal_hinge_refine_interrupt(&self->refine);
     } else if (self->has_point) {
-        self->credit_s -= jcal_hinge_refine_add(self, sample) ? (CLOSE_SLICES * slice_s(self)) : 0.0f;
+        closed = jcal_hinge_refine_add(self, sample);
     } else {
         /* nothing to refine yet */
     }
     if ((self->motion > MOTION_MAX) || (self->moments.acc[jcal_sym_at(6u, 6u)] > ACC_WEIGHT_MAX)) {
         halve(self);
     }
+    return closed;
 }
 
 /// One slice of the cycle: 2 steps of the estimate, 5 slices of the global check, 1 judgement. Once the starts have
@@ -282,7 +287,8 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
     }
     const float dt_s = jcal_min(since_s, STEP_MAX_S);
     const jcal_hinge_sample_t sample = weigh(self, pair, dt_s);
-    sum_up(self, &sample);
+    const bool closed = sum_up(self, &sample);
+    self->credit_s -= closed ? jcal_min(CLOSE_SLICES * slice_s(self), jcal_max(CLOSE_S, dt_s)) : 0.0f;
     self->credit_s = jcal_min(self->credit_s + dt_s, (float)SLICES_MAX * slice_s(self));
     for (unsigned i = 0u; i < SLICES_MAX; ++i) {
         const float price_s = slice_s(self) * ((self->verdict.status == (uint8_t)JCAL_READY) ? PRICE_READY : 1.0f);
