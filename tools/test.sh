@@ -15,7 +15,7 @@ mkdir -p "$logs"
 step() { printf '\n== %s\n' "$*"; }
 
 step "Tools"
-need_packages "${build_packages[@]}" pkg-config xz-utils clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev \
+need_packages "${build_packages[@]}" "${target_packages[@]}" pkg-config xz-utils clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev \
     cppcheck python3-venv python3-numpy python3-matplotlib
 python=$(python_with numpy matplotlib)
 tools/unity.sh

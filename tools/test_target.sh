@@ -11,7 +11,7 @@ source tools/packages.sh
 
 logs=build/logs
 mkdir -p "$logs"
-need_packages "${build_packages[@]}" gcc-arm-none-eabi picolibc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm
+need_packages "${build_packages[@]}" "${target_packages[@]}"
 tools/unity.sh
 
 what=${1:-all}

@@ -198,7 +198,8 @@ static double slices_in_four_seconds(double rate_hz)
         const uint32_t done = (engine.slice + 16u - before) % 16u;
         const bool closed = engine.has_point && !(engine.refine.block.time_s > 0.0f);
         TEST_ASSERT_TRUE(done <= 10u);
-        paid += (double)((done * price) + (((before % 8u) + done) / 8u)) + (closed ? close : 0.0);
+        const uint32_t judgements = ((before % 8u) + done) / 8u;
+        paid += (double)((done * price) + judgements) + (closed ? close : 0.0);
     }
     return paid;
 }
