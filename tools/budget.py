@@ -102,6 +102,8 @@ def fewer_slices(recording: Path) -> dict:
             counts, _, _ = counts_of(plugin, "stream", samples, (f"REPLAY_SLICES={slices}",))
             key = f"hinge_stream_push_instructions_{slices}_slices_{rate_hz}_hz"
             found |= {f"{key}_max": max(counts["update"]), f"{key}_mean": round(statistics.mean(counts["update"]))}
+    # At 25 slices and 100 Hz three updates in four have none.
+    found["hinge_stream_push_without_slice_instructions"] = round(statistics.median(counts["update"]))
     return found
 
 
@@ -173,7 +175,9 @@ def page_of(numbers: dict, code: dict) -> str:
              "push and step together, as in jcal_hinge_update. The window engine has N_max 125. `code_bytes` is the whole library;",
              "`hub_flash_bytes` what one stream engine, fed and read, adds to a linked image with unused sections dropped. Sixteen",
              "hinges: one image, one tick of 10 ms updates all, on the first minute of the recording interpolated to 100 Hz; all",
-             "get the same samples, so that their busy moments coincide.", "",
+             "get the same samples, so that their busy moments coincide. In their busiest second that is "
+             f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * low / 1e6:.0f} to",
+             f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * high / 1e6:.0f} million cycles, by the estimate below, of 64 million.", "",
              "Instructions, not cycles; no board was measured. On paper, the instructions of the stream engine on this recording",
              f"take {low:.2f} to {high:.2f} cycles each on a Cortex-M4F without wait states: the mix that was executed, priced by the",
              "table of timings in Texas Instruments' document SWCU192 (1 cycle for an addition or multiplication of floats, 3 for",
@@ -188,7 +192,8 @@ def page_of(numbers: dict, code: dict) -> str:
              "| quantity | value |", "|---|---|"]
     lines += [f"| {key} | {value} |" for key, value in numbers.items() if isinstance(value, int) and "_slices_" not in key]
     lines += ["", "Instructions of an update by `slices_per_s` of the config and rate of the samples, most and mean, on the first minute of",
-              "the recording; [slices.md](slices.md) has what fewer slices cost in time to ready.", "",
+              "the recording; [slices.md](slices.md) has what fewer slices cost in time to ready. An update without any slice or closing",
+              f"block takes {numbers['hinge_stream_push_without_slice_instructions']} (median at 25 slices and 100 Hz).", "",
               "| slices per second | " + " | ".join(f"{rate} Hz, most | mean" for rate in TABLED_HZ) + " |", "|---|" + "---|---|" * len(TABLED_HZ)]
     lines += [f"| {slices} | " + " | ".join(f"{numbers[f'{key}_max']} | {numbers[f'{key}_mean']}" for key in
                                              (f"hinge_stream_push_instructions_{slices}_slices_{rate}_hz" for rate in TABLED_HZ))

@@ -29,7 +29,7 @@ char *qemu_plugin_insn_disas(const struct qemu_plugin_insn *);
 const char *qemu_plugin_insn_symbol(const struct qemu_plugin_insn *);
 uint64_t qemu_plugin_insn_vaddr(const struct qemu_plugin_insn *);
 extern __attribute__((visibility("default"))) int qemu_plugin_version;
-__attribute__((visibility("default"))) int qemu_plugin_install(plugin_id_t, const void *, int, char **);
+__attribute__((visibility("default"))) int qemu_plugin_install(plugin_id_t id, const void *info, int argc, char **argv);
 
 int qemu_plugin_version = 1;
 
@@ -90,18 +90,15 @@ static bool begins(const char *text, const char *with)
     return strncmp(text, with, strlen(with)) == 0;
 }
 
-/* Registers in the list of a multiple load or store: commas between the braces, ranges not counted by their ends alone. */
+/* Words that a multiple load or store moves: its list names every register; a double one is two words. */
 static uint32_t listed(const char *text)
 {
     uint32_t count = 0;
     const char *at = strchr(text, '{');
-    while (at != NULL && *at != '\0' && *at != '}') {
-        int first = 0;
-        int last = 0;
+    while (at != NULL && *at != '}') {
         const char *const name = at + 1 + strspn(at + 1, " ");
-        const bool is_range = sscanf(name, "%*[rsd]%d-%*[ rsd]%d", &first, &last) == 2 && last > first;
-        count += is_range ? (uint32_t)(last - first + 1) : 1;
-        at = strpbrk(at + 1, ",}");
+        count += (*name == 'd') ? 2 : 1;
+        at = strpbrk(name, ",}");
     }
     return count;
 }
