@@ -5,8 +5,8 @@
     python3 tools/measure.py all --quick         a small one of each, as CI does
     python3 tools/measure.py never --only clip:7 one run again
 
-Each subcommand prints a report and writes it to docs/measurements (--quick and --only:
-build/measurements). Exit status 1 if a requirement fails. Recordings are looked for in
+Each subcommand prints a report and writes it to docs/measurements (--quick, --only and
+--slices: build/measurements). Exit status 1 if a requirement fails. Recordings are looked for in
 the folder that JOINTCAL_DATA names, else in data/.
 """
 
@@ -54,6 +54,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--qmt-every", type=float, default=1.0, metavar="S",
                         help="cost: estimate with qmt every S seconds; the requirement is about 1")
     parser.add_argument("--only", metavar="CLASS[:INDEX]", help="never, bounds: this class or run alone")
+    parser.add_argument("--slices", type=float, metavar="N", help="slices_per_s of the config (default: the library's)")
     parser.add_argument("--out", type=Path, help="folder of the reports")
     return parser
 
@@ -99,7 +100,9 @@ def main() -> int:
     except (FileNotFoundError, RuntimeError) as error:
         print(error, file=sys.stderr)
         return 2
-    default = "build/measurements" if args.quick or args.only else "docs/measurements"
+    if args.slices is not None:
+        native.OVERRIDES["slices_per_s"] = args.slices
+    default = "build/measurements" if args.quick or args.only or args.slices is not None else "docs/measurements"
     folder = args.out or TOOLS.parent / default
     names = list(MEASUREMENTS) if args.what == "all" else [args.what]
     passed = [measure(name, settings_from(args), folder) for name in names]
