@@ -57,4 +57,6 @@ step "Hub over a bad wire, a short run"
 "$python" tools/hub_soak.py --minutes 1
 step "Cortex-M processors in QEMU"
 tools/test_target.sh
+step "Hub in QEMU over a bad wire, a short run"
+"$python" tools/hub_soak.py --minutes 1 --board mps2_an386
 step "All steps passed"
