@@ -11,7 +11,7 @@ source tools/packages.sh
 
 logs=build/logs
 mkdir -p "$logs"
-need_packages "${build_packages[@]}" "${target_packages[@]}"
+need_packages "${build_packages[@]}" "${target_packages[@]}" xz-utils
 tools/unity.sh
 
 what=${1:-all}
