@@ -22,12 +22,15 @@ BUDGETS = target.PORT / "budgets.json"
 PAGE = target.ROOT / "docs/measurements/budget.md"
 M4F = target.PLATFORMS["m4f"]
 ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
-CPU_HZ, INSTANCES, RATE_HZ = 64_000_000, 16, 100
+INSTANCES, RATE_HZ = 16, 100
+SLICES_PER_S, TABLED_HZ = (200, 100, 50, 25), (50, 100)
+LISTED = 8
 
 
 def counts_of(plugin: Path, engine: str, samples: Path, definitions: tuple[str, ...]) -> tuple[dict, dict, dict]:
-    """Counts of every call by kind, the worst call's counts by function, and what the program printed."""
-    image = target.build(M4F, f"replay_{engine}_{'_'.join(definitions).lower()}", ENGINES[engine] + definitions)
+    """Counts of every call by kind (`cycles`: low, high, instructions), the worst call's by function, what the program printed."""
+    name = f"replay_{engine}_{'_'.join(definitions).lower().replace('=', '_')}"
+    image = target.build(M4F, name, ENGINES[engine] + definitions)
     out = target.WORK / "counts.txt"
     printed = target.run(M4F, image, samples, plugin, out)
     counts: dict[str, list[int]] = {}
@@ -36,6 +39,8 @@ def counts_of(plugin: Path, engine: str, samples: Path, definitions: tuple[str, 
         cells = line.split()
         if cells[0] == "worst":
             worst.setdefault(cells[1], {})[cells[3]] = int(cells[2])
+        elif cells[0] == "cycles":
+            counts["cycles"] = [int(cell) for cell in cells[1:]]
         else:
             counts.setdefault(cells[0], []).append(int(cells[1]))
     return counts, worst, printed
@@ -54,7 +59,8 @@ def instructions(samples: Path) -> dict:
 
 def print_profile(found: dict) -> None:
     for engine, of in found.items():
-        for kind, counts in of["counts"].items():
+        for kind in ("update", "push", "step"):
+            counts = of["counts"][kind]
             print(f"{engine} {kind}: max {max(counts)}, mean {statistics.mean(counts):.0f}, "
                   f"median {statistics.median(counts):.0f}, sample of the max {counts.index(max(counts))}")
         for name, count in sorted(of["worst"].items(), key=lambda item: -item[1]):
@@ -85,6 +91,20 @@ def sixteen(recording: Path) -> dict:
             "sixteen_hinges_instructions_per_s_busiest": busiest,
             "sixteen_hinges_instructions_per_tick_max": max(ticks),
             "sixteen_hinges_state_bytes": INSTANCES * printed["state"]}
+
+
+def fewer_slices(recording: Path) -> dict:
+    """Instructions of an update by slices_per_s and rate, on the first minute of the recording at that rate."""
+    plugin, found = target.build_plugin(), {}
+    for slices in SLICES_PER_S:
+        for rate_hz in TABLED_HZ:
+            samples = target.samples_file(recording, rate_hz)
+            counts, _, _ = counts_of(plugin, "stream", samples, (f"REPLAY_SLICES={slices}",))
+            key = f"hinge_stream_push_instructions_{slices}_slices_{rate_hz}_hz"
+            found |= {f"{key}_max": max(counts["update"]), f"{key}_mean": round(statistics.mean(counts["update"]))}
+    # At 25 slices and 100 Hz three updates in four have none.
+    found["hinge_stream_push_without_slice_instructions"] = round(statistics.median(counts["update"]))
+    return found
 
 
 def stack_by_call_graph() -> tuple[dict[str, int], list[str]]:
@@ -130,6 +150,10 @@ def measure(samples: Path, recording: Path) -> tuple[dict, dict]:
     numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
     numbers |= sixteen(recording)
     numbers["hub_flash_bytes"] = linked_bytes("hub") - linked_bytes("hub_empty", ("HUB_EMPTY",))
+    numbers |= fewer_slices(recording)
+    low, high, executed = found["stream"]["counts"]["cycles"]
+    numbers["cycles_per_instruction"] = [round(low / executed, 2), round(high / executed, 2)]
+    numbers["worst_push_by_function"] = dict(sorted(found["stream"]["worst"].items(), key=lambda item: -item[1])[:LISTED])
     numbers["not_in_call_graph"] = unknown
     return numbers, code
 
@@ -145,19 +169,38 @@ def exceeded(numbers: dict) -> list[str]:
 
 
 def page_of(numbers: dict, code: dict) -> str:
+    low, high = numbers["cycles_per_instruction"]
     lines = ["# Cost on a Cortex-M4F", "",
              f"Written by `tools/budget.py`, recording {numbers['recording']}, arm-none-eabi-gcc, contraction off. `push` is",
              "push and step together, as in jcal_hinge_update. The window engine has N_max 125. `code_bytes` is the whole library;",
              "`hub_flash_bytes` what one stream engine, fed and read, adds to a linked image with unused sections dropped. Sixteen",
              "hinges: one image, one tick of 10 ms updates all, on the first minute of the recording interpolated to 100 Hz; all",
-             "get the same samples, so that their busy moments coincide.", "",
-             "Instructions, not cycles; no board was measured. Of the Cortex-M4F, without wait states, Texas Instruments' table",
-             "of instructions (document SWCU192, FPU instruction set) gives 1 cycle for an addition or multiplication of floats, 14",
-             "for a division, 2 for loading a float and 1 + N for N of them; a taken branch refills the pipeline. Flash adds to",
-             "that: STM32F4 reads 128 bits at once through a prefetch and cache lines (reference manual RM0090, section 3). An",
-             "estimate from these, not a measurement: 1.3 to 1.8 cycles for an instruction from fast memory.", "",
+             "get the same samples, so that their busy moments coincide. In their busiest second that is "
+             f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * low / 1e6:.0f} to",
+             f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * high / 1e6:.0f} million cycles, by the estimate below, of 64 million.", "",
+             "Instructions, not cycles; no board was measured. On paper, the instructions of the stream engine on this recording",
+             f"take {low:.2f} to {high:.2f} cycles each on a Cortex-M4F without wait states: the mix that was executed, priced by the",
+             "table of timings in Texas Instruments' document SWCU192 (1 cycle for an addition or multiplication of floats, 3 for",
+             "both in one, 14 for a division or root, 2 for a load, 1 + N for N registers, 1 to 3 more for a taken branch); low",
+             "if loads follow each other and branches are cheap, high if every load, branch and float result is waited for. Flash",
+             "adds to that. The STM32F405 reads 128 bits at once through a prefetch and cache lines (reference manual RM0090,",
+             "section 3); of the same scheme in the STM32L4 at 80 MHz and 4 wait states ST's data sheet gives 3.42 CoreMark/MHz,",
+             "which is what Arm names for the core itself, so next to nothing is lost in loops. The nRF52840 has an instruction cache",
+             "that is off after reset (ICACHECNF of its NVMC); the pull requests RIOT 9400 and ariel-os 1163 measured what it",
+             "brings: 1574 ticks fall to 1305 in the latter. `port/boards/nrf52840` switches it on. On a board, `DWT_CYCCNT` before and",
+             "after a call tells the cycles.", "",
              "| quantity | value |", "|---|---|"]
-    lines += [f"| {key} | {value} |" for key, value in numbers.items() if isinstance(value, int)]
+    lines += [f"| {key} | {value} |" for key, value in numbers.items() if isinstance(value, int) and "_slices_" not in key]
+    lines += ["", "Instructions of an update by `slices_per_s` of the config and rate of the samples, most and mean, on the first minute of",
+              "the recording; [slices.md](slices.md) has what fewer slices cost in time to ready. An update without any slice or closing",
+              f"block takes {numbers['hinge_stream_push_without_slice_instructions']} (median at 25 slices and 100 Hz).", "",
+              "| slices per second | " + " | ".join(f"{rate} Hz, most | mean" for rate in TABLED_HZ) + " |", "|---|" + "---|---|" * len(TABLED_HZ)]
+    lines += [f"| {slices} | " + " | ".join(f"{numbers[f'{key}_max']} | {numbers[f'{key}_mean']}" for key in
+                                             (f"hinge_stream_push_instructions_{slices}_slices_{rate}_hz" for rate in TABLED_HZ))
+              + " |" for slices in SLICES_PER_S]
+    lines += ["", "Where the busiest update of the stream engine at 50 Hz spends its instructions (functions by themselves, inlined ones with",
+              "their caller):", "", "| function | instructions |", "|---|---|"]
+    lines += [f"| {name} | {count} |" for name, count in numbers["worst_push_by_function"].items()]
     lines += ["", "Not in the call graphs, counted as 0 bytes of stack: " + ", ".join(numbers["not_in_call_graph"]) + ".", "",
               "| module | -O2 | -Os |", "|---|---|---|"]
     lines += [f"| {name} | {size} | {code['-Os'][name]} |" for name, size in code["-O2"].items()]

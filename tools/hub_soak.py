@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Stream a simulated hour to a hub over a bad wire and check what it counts and finds.
 
-    python3 tools/hub_soak.py                one hour at 100 Hz; writes docs/measurements/hub.md
-    python3 tools/hub_soak.py --minutes 1    as CI does; writes build/measurements/hub.md
-    python3 tools/hub_soak.py --minutes 1 --to unix:PATH    a hub that runs already, as in QEMU
+    python3 tools/hub_soak.py                         one hour at 100 Hz; writes its section of docs/measurements/hub.md
+    python3 tools/hub_soak.py --board mps2_an386      the same to the firmware in QEMU (build of preset m4f); takes half an hour
+    python3 tools/hub_soak.py --minutes 1             as CI does, with and without --board; writes build/measurements/hub.md
+    python3 tools/hub_soak.py --minutes 1 --to unix:PATH    a hub that runs already
 
 1 % of the sample frames are lost, 0.1 % damaged (one to three bits of any byte, the final zero included), 0.1 %
 repeated, 0.1 % swapped with the next one. Sent as fast as the hub gives credit. Expected counters are computed from the bytes
@@ -12,8 +13,10 @@ that were really sent. Exit status 1 if a requirement fails. Needs numpy and the
 """
 
 import argparse
+import contextlib
 import math
 import random
+import re
 import select
 import socket
 import struct
@@ -35,6 +38,8 @@ RATE_HZ = 100
 FAULTS = {"lost": 0.01, "damaged": 0.001, "repeated": 0.001, "swapped": 0.001}
 ORIGIN_US = 1 << 40
 SILENCE_S = 10.0
+BOARDS = {"mps2_an386": "mps2-an386", "stm32f405": "netduinoplus2"}
+TITLE = "# Hub over a bad wire\n"
 
 
 class Link:
@@ -175,7 +180,7 @@ def stream(link: Link, wire: BadWire, rec) -> None:
     link.wait(answered)
 
 
-def judge(link: Link, wire: BadWire, rec, wall_s: float, where: str) -> tuple[str, bool]:
+def judge(link: Link, wire: BadWire, rec, wall_s: float, where: tuple[str, str]) -> tuple[str, bool]:
     counted = hub.counters(link.last(hub.COUNTERS))
     found = hub.estimate(link.last(hub.ESTIMATE))
     expected = {**wire.expected.counts, "unknown": 0, "overrun": 0, "samples": wire.used - 1}
@@ -194,9 +199,9 @@ def judge(link: Link, wire: BadWire, rec, wall_s: float, where: str) -> tuple[st
     rejected = ", ".join(f"{name} {number}" for name, number in counted["rejected_by"].items() if number) or "none"
     passed = "\n".join(f"- {'PASS' if ok else 'FAIL'}: {name}" for name, ok in requirements.items())
     made = ", ".join(f"{number} {name}" for name, number in wire.injected.items())
-    text = f"""# Hub over a bad wire
+    text = f"""## {where[0]}
 
-Written by `python3 tools/hub_soak.py`{where}.
+Written by `{f"python3 tools/hub_soak.py {where[1]}".strip()}`.
 
 {len(rec.t_s)} samples ({rec.t_s[-1] / 60:.0f} minutes of simulated daily motion at {RATE_HZ} Hz, gyroscope biases 0.3 deg/s, accelerometer
 biases 0.1 m/s^2), as fast as the hub gives credit ({link.credit} frames). Faults made in frames to the hub: {made}. A damage flips one
@@ -208,21 +213,53 @@ expected counters are computed from the bytes that went out, by other code than 
 {rows}
 
 Rejected by the gate: {rejected}. Errors of the axes {errors[0]:.3f} and {errors[1]:.3f} deg, bounds {bounds[0]:.2f} and {bounds[1]:.2f} deg.
-{wall_s:.0f} s ({rec.t_s[-1] / wall_s:.0f} times real time, most of it the sender's, which is Python); longest wait for credit or an
+{wall_s:.0f} s ({rec.t_s[-1] / wall_s:.1f} times real time, sender included, which is Python); longest wait for credit or an
 answer {1000 * link.longest_wait_s:.0f} ms.
-
-## Requirements
 
 {passed}
 """
     return text, all(requirements.values())
 
 
+@contextlib.contextmanager
+def hub_at(args):
+    """Starts the hub that was asked for: yields the path of its socket, what it is called, and the command that names it."""
+    with tempfile.TemporaryDirectory() as temporary:
+        path, seed = str(Path(temporary) / "hub"), f" --seed {args.seed}" if args.seed != 1 else ""
+        if args.to:
+            yield args.to.removeprefix("unix:"), "Another hub", f"--to {args.to}{seed}"
+            return
+        if args.board:
+            image = ROOT / "build" / "m4f" / f"hub_{args.board}.elf"
+            command = ["qemu-system-arm", "-M", BOARDS[args.board], "-display", "none", "-monitor", "none", "-serial",
+                       f"unix:{path},server=on,wait=off", "-kernel", str(image)]
+            name, option = f"Firmware `hub_{args.board}` in QEMU ({BOARDS[args.board]})", f"--board {args.board}{seed}"
+        else:
+            command = [str(ROOT / "build" / "host" / "jointcal_hub"), f"unix:{path}"]
+            name, option = "Hub core on the PC (jointcal_hub)", seed.strip()
+        process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL)
+        try:
+            while not Path(path).exists() and process.poll() is None:
+                time.sleep(0.02)
+            yield path, name, option
+        finally:
+            process.kill()
+            process.wait()
+
+
+def with_section(page: str, section: str) -> str:
+    """The page with this section in place of the one of the same heading."""
+    sections = re.split(r"(?m)^(?=## )", page)[1:]
+    heading = section.splitlines()[0]
+    kept = {text.splitlines()[0]: text.rstrip() + "\n" for text in sections}
+    return "\n".join([TITLE, *(kept | {heading: section}).values()])
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--minutes", type=float, default=60.0)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--hub", default=str(ROOT / "build" / "host" / "jointcal_hub"), help="the program to start")
+    parser.add_argument("--board", choices=BOARDS, help="the board whose firmware to run in QEMU")
     parser.add_argument("--to", metavar="unix:PATH", help="a hub that runs already")
     parser.add_argument("--out", type=Path)
     args = parser.parse_args()
@@ -230,25 +267,13 @@ def main() -> int:
                                    gyr_bias_deg_s=0.3, acc_bias=0.1))
     folder = "docs" if args.minutes >= 60.0 and args.to is None else "build"
     out = args.out or ROOT / folder / "measurements" / "hub.md"
-    with tempfile.TemporaryDirectory() as temporary:
-        path, process = str(Path(temporary) / "hub"), None
-        if args.to:
-            path = args.to.removeprefix("unix:")
-        else:
-            process = subprocess.Popen([args.hub, f"unix:{path}"], stdout=subprocess.PIPE, text=True)
-            process.stdout.readline()
-        try:
-            link, wire = Link(path), BadWire(args.seed)
-            began = time.monotonic()
-            stream(link, wire, rec)
-            where = f", seed {args.seed}, " + ("another hub" if args.to else "hub core on the PC (jointcal_hub)")
-            text, ok = judge(link, wire, rec, time.monotonic() - began, where)
-        finally:
-            if process is not None:
-                process.kill()
-                process.wait()
+    with hub_at(args) as (path, name, option):
+        link, wire = Link(path), BadWire(args.seed)
+        began = time.monotonic()
+        stream(link, wire, rec)
+        text, ok = judge(link, wire, rec, time.monotonic() - began, (name, option))
     out.parent.mkdir(parents=True, exist_ok=True)
-    out.write_text(text)
+    out.write_text(with_section(out.read_text() if out.exists() else TITLE, text))
     print(text)
     print(f"written to {out}")
     return 0 if ok else 1

@@ -5,8 +5,8 @@
     python3 tools/measure.py all --quick         a small one of each, as CI does
     python3 tools/measure.py never --only clip:7 one run again
 
-Each subcommand prints a report and writes it to docs/measurements (--quick and --only:
-build/measurements). Exit status 1 if a requirement fails. Recordings are looked for in
+Each subcommand prints a report and writes it to docs/measurements (--quick, --only and
+--slices: build/measurements). Exit status 1 if a requirement fails. Recordings are looked for in
 the folder that JOINTCAL_DATA names, else in data/.
 """
 
@@ -34,6 +34,7 @@ MEASUREMENTS = {
     "bounds": "coverage and sharpness of the bounds, simulated",
     "scenarios": "the four scenarios of OLS20 beside Algorithm 4",
     "time": "time to ready",
+    "slices": "what fewer slices of work per second cost in time to ready",
     "bias": "what the bias states buy",
     "reference": "the stream engine beside float64, rig and simulated",
     "two_dof": "2-DoF joint: whole rig recordings, and every 5, 10, 20 s window",
@@ -57,6 +58,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--qmt-every", type=float, default=1.0, metavar="S",
                         help="cost: estimate with qmt every S seconds; the requirement is about 1")
     parser.add_argument("--only", metavar="CLASS[:INDEX]", help="never, bounds: this class or run alone")
+    parser.add_argument("--slices", type=float, metavar="N", help="slices_per_s of the config (default: the library's)")
     parser.add_argument("--out", type=Path, help="folder of the reports")
     return parser
 
@@ -102,7 +104,9 @@ def main() -> int:
     except (FileNotFoundError, RuntimeError) as error:
         print(error, file=sys.stderr)
         return 2
-    default = "build/measurements" if args.quick or args.only else "docs/measurements"
+    if args.slices is not None:
+        native.OVERRIDES["slices_per_s"] = args.slices
+    default = "build/measurements" if args.quick or args.only or args.slices is not None else "docs/measurements"
     folder = args.out or TOOLS.parent / default
     names = list(MEASUREMENTS) if args.what == "all" else [args.what]
     passed = [measure(name, settings_from(args), folder) for name in names]

@@ -52,3 +52,5 @@ python_with() {
 
 # The host build needs these.
 build_packages=(gcc g++ libc6-dev cmake make python3)
+# And this what is built for microcontrollers and run in QEMU.
+target_packages=(gcc-arm-none-eabi picolibc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm libstdc++-arm-none-eabi-picolibc)

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Builds and tests for Cortex-M processors in QEMU: tools/test_target.sh [all | quick | PRESET...]
 #
-# Installs what is missing (as root; otherwise it prints the command). all (the default): every unit test on every preset, same
-# bits on host and targets, the hub in QEMU, the budget. quick, which CI runs: m4f, hub and budget. PRESET: its tests only.
+# Installs what is missing (as root; otherwise it prints the command). all (the default, part of tools/test.sh): every unit test on
+# m4f, m3, m7 and m33, same bits on host and targets, the hub in QEMU, the budget. quick: m4f, hub and budget. PRESET: its tests only.
 # Log files go to build/logs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,8 +11,7 @@ source tools/packages.sh
 
 logs=build/logs
 mkdir -p "$logs"
-need_packages "${build_packages[@]}" gcc-arm-none-eabi picolibc-arm-none-eabi libnewlib-arm-none-eabi qemu-system-arm \
-    libstdc++-arm-none-eabi-picolibc python3-venv
+need_packages "${build_packages[@]}" "${target_packages[@]}" xz-utils python3-venv
 tools/unity.sh
 tools/vqf.sh
 
@@ -31,7 +30,7 @@ done
 
 if [[ $what == all ]]; then
     printf '\n== Same bits\n'
-    tools/same_bits.py
+    tools/same_bits.py --no-write
 fi
 if [[ $what == all || $what == quick ]]; then
     printf '\n== Hub in QEMU, as on the PC\n'

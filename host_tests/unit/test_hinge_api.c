@@ -16,6 +16,7 @@ static void the_default_config_is_valid(void)
     TEST_ASSERT_EQUAL_FLOAT(0.007f, config.gyr_bias_rad_s);
     TEST_ASSERT_EQUAL_FLOAT(0.5f, config.acc_bias_m_s2);
     TEST_ASSERT_EQUAL_INT(JCAL_SIGN_UNKNOWN, config.sign_hint);
+    TEST_ASSERT_EQUAL_FLOAT(200.0f, config.slices_per_s);
 }
 
 static void every_field_out_of_its_range_is_named(void)
@@ -33,6 +34,7 @@ static void every_field_out_of_its_range_is_named(void)
         {"lever_arm_m", &c.lever_arm_m, 0.0f, 5.0f},
         {"gyr_bias_rad_s", &c.gyr_bias_rad_s, 1e-5f, 0.2f},
         {"acc_bias_m_s2", &c.acc_bias_m_s2, 1e-4f, 5.0f},
+        {"slices_per_s", &c.slices_per_s, 20.0f, 800.0f},
         {"gate.gyr_max_rad_s", &c.gate.gyr_max_rad_s, 1.0f, 200.0f},
         {"gate.acc_max_m_s2", &c.gate.acc_max_m_s2, 20.0f, 4000.0f},
         {"gate.frozen_s", &c.gate.frozen_s, 0.02f, 10.0f},

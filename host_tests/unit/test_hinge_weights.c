@@ -181,29 +181,65 @@ static void a_sample_stands_for_the_time_since_the_last_one_up_to_50_ms(void)
     }
 }
 
+/* Slices that 4 s of motion are charged: four times as many once ready; 2 for a judgement, the last of 8, and 3, at most 15 ms, for a
+   block that closes. At most 10 slices per sample. Every other cycle may leave the global check out, so that the count repeats
+   after 16. */
+static double slices_in_four_seconds(double rate_hz)
+{
+    motion_t motion = motion_lively(7);
+    motion.rate_hz = rate_hz;
+    const double close = fmin(3.0, 0.015 * (double)engine.cfg.slices_per_s);
+    double paid = 0.0;
+    for (uint32_t k = 0; k <= (uint32_t)(4.0 * rate_hz); ++k) {
+        const uint8_t before = engine.slice;
+        const uint32_t price = (engine.verdict.status == (uint8_t)JCAL_READY) ? 4u : 1u;
+        const jcal_pair_t p = motion_sample(&motion, k);
+        jcal_hinge_consume(&engine, &p);
+        const uint32_t done = (engine.slice + 16u - before) % 16u;
+        const bool closed = engine.has_point && !(engine.refine.block.time_s > 0.0f);
+        TEST_ASSERT_TRUE(done <= 10u);
+        const uint32_t judgements = ((before % 8u) + done) / 8u;
+        paid += (double)((done * price) + judgements) + (closed ? close : 0.0);
+    }
+    return paid;
+}
+
 static void the_work_per_second_does_not_depend_on_the_rate(void)
 {
-    /* 5 ms of credit pay a slice, 20 ms once it is ready; a judgement, the last of 8 slices, costs 2, and a block that closes 3.
-       At most 10 slices per sample. Every other cycle may leave the global check out, so that the count repeats after 16. */
     const double rates_hz[4] = {20.0, 25.0, 50.0, 200.0};
     for (int i = 0; i < 4; ++i) {
-        motion_t motion = motion_lively(7);
-        motion.rate_hz = rates_hz[i];
         setUp();
-        uint32_t paid = 0;
-        for (uint32_t k = 0; k <= (uint32_t)(4.0 * rates_hz[i]); ++k) {
-            const uint8_t before = engine.slice;
-            const uint32_t price = (engine.verdict.status == (uint8_t)JCAL_READY) ? 4u : 1u;
-            const jcal_pair_t p = motion_sample(&motion, k);
-            jcal_hinge_consume(&engine, &p);
-            const uint32_t done = (engine.slice + 16u - before) % 16u;
-            TEST_ASSERT_TRUE(done <= 10u);
-            paid += (done * price) + (((before % 8u) + done) / 8u);
-            paid += (engine.has_point && !(engine.refine.block.time_s > 0.0f)) ? 3u : 0u;
-        }
         /* What is left unpaid, and a slice paid at the old price where the calibration became ready. */
-        TEST_ASSERT_UINT32_WITHIN(12, 800, paid);
+        TEST_ASSERT_TRUE(fabs(slices_in_four_seconds(rates_hz[i]) - 800.0) <= 12.0);
     }
+}
+
+static void the_config_says_how_much_work_is_done_per_second(void)
+{
+    const float slices_per_s[4] = {20.0f, 50.0f, 100.0f, 800.0f};
+    for (int i = 0; i < 4; ++i) {
+        setUp();
+        engine.cfg.slices_per_s = slices_per_s[i];
+        TEST_ASSERT_TRUE(fabs(slices_in_four_seconds(200.0) - (4.0 * (double)slices_per_s[i])) <= 12.0);
+    }
+}
+
+static void with_few_slices_a_step_does_one_or_closes_a_block(void)
+{
+    const motion_t motion = motion_lively(7);
+    uint32_t closed = 0;
+    engine.cfg.slices_per_s = 50.0f;
+    for (uint32_t k = 0; k < 1000u; ++k) { /* 50 Hz */
+        const uint8_t before = engine.slice;
+        const float blocks = engine.refine.blocks;
+        const jcal_pair_t p = motion_sample(&motion, k);
+        jcal_hinge_consume(&engine, &p);
+        const uint32_t done = (engine.slice + 16u - before) % 16u;
+        const bool closes = engine.refine.blocks > blocks;
+        TEST_ASSERT_TRUE(done <= (closes ? 0u : 1u));
+        closed += closes ? 1u : 0u;
+    }
+    TEST_ASSERT_TRUE(closed > 20u); /* 20 s of blocks of 0.2 to 0.6 s */
 }
 
 int main(void)
@@ -216,5 +252,7 @@ int main(void)
     RUN_TEST(the_refined_axes_leave_out_what_lies_beyond_a_second_of_rest);
     RUN_TEST(a_sample_stands_for_the_time_since_the_last_one_up_to_50_ms);
     RUN_TEST(the_work_per_second_does_not_depend_on_the_rate);
+    RUN_TEST(the_config_says_how_much_work_is_done_per_second);
+    RUN_TEST(with_few_slices_a_step_does_one_or_closes_a_block);
     return UNITY_END();
 }

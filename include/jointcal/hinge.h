@@ -72,6 +72,9 @@ typedef struct {
                                  ///< Range [1e-5, 0.2], default 0.007 (0.4 deg/s). 1e-5 turns the bias states off.
     float acc_bias_m_s2;         ///< The same of an accelerometer, m/s^2. Range [1e-4, 5], default 0.5.
     jcal_sign_hint_t sign_hint;  ///< Default JCAL_SIGN_UNKNOWN.
+    /// Slices of work per second of sample time, a quarter of it once `ready`; at most 10 in one step. Range [20, 800], default
+    /// 200. Fewer: less work in the busiest step, longer until `ready`; docs/METHOD.md, section 8, has the measured trade.
+    float slices_per_s;
 } jcal_hinge_config_t;
 
 /// Number of features of the gyroscope residual; lib/calib/hinge_model.h says which.

@@ -57,14 +57,16 @@
 #define MOTION_MAX 3600.0f
 #define ACC_WEIGHT_MAX 2e4f
 
-/// One slice of work is paid for by this much time, so that the work per second does not depend on the rate: four times as much once
-/// the calibration is ready and changes slowly.
-#define SLICE_S 0.005f
-#define SLICE_READY_S 0.02f
+/// Slices of work are paid for with time, so that the work per second does not depend on the rate: with four times as much once the
+/// calibration is ready and changes slowly.
+#define SLICES_PER_S 200.0f
+#define PRICE_READY 4.0f
 #define SLICES_MAX 10u
-/// A judgement, and a block of the refined axes that closes, cost more than other slices.
+/// A judgement, and a block of the refined axes that closes, cost more than other slices. Where slices are few, a block costs this
+/// much time or that of its step, so that blocks leave some to the other slices, and there is no other work in that step.
 #define JUDGE_SLICES 2.0f
 #define CLOSE_SLICES 3.0f
+#define CLOSE_S 0.015f
 #define SLICES_PER_CYCLE 8u
 #define SETTLED_ROUNDS 4u
 
@@ -82,6 +84,7 @@ jcal_hinge_config_t jcal_hinge_config_default(void)
     config.gyr_bias_rad_s = 0.007f;
     config.acc_bias_m_s2 = 0.5f;
     config.sign_hint = JCAL_SIGN_UNKNOWN;
+    config.slices_per_s = SLICES_PER_S;
     return config;
 }
 
@@ -100,6 +103,7 @@ const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
         {"lever_arm_m", config->lever_arm_m, 0.0f, 5.0f},
         {"gyr_bias_rad_s", config->gyr_bias_rad_s, 1e-5f, 0.2f},
         {"acc_bias_m_s2", config->acc_bias_m_s2, 1e-4f, 5.0f},
+        {"slices_per_s", config->slices_per_s, 20.0f, 800.0f},
     };
     for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
         if (!((fields[i].value >= fields[i].low) && (fields[i].value <= fields[i].high))) {
@@ -165,6 +169,12 @@ jcal_status_t jcal_hinge_push(jcal_hinge_t *self, const jcal_pair_t *pair)
     }
     jcal_inbox_put(&self->inbox, pair);
     return JCAL_OK;
+}
+
+/// Time that pays for one slice before the calibration is ready, s.
+static float slice_s(const jcal_hinge_t *self)
+{
+    return 1.0f / self->cfg.slices_per_s;
 }
 
 /// Weight of the accelerometer reading: less in fast motion, where (17) of [OLS20] is not zero, and while a pose lasts.
@@ -253,8 +263,10 @@ static void begin_anew(jcal_hinge_t *self)
     self->verdict.status = (uint8_t)JCAL_MOVED;
 }
 
-static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+/// Returns true if a block of the refined axes closed.
+static bool sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
 {
+    bool closed = false;
     watch(self, sample);
     const float noise = self->cfg.gyr_noise_rad_s;
     const float gyr_weight =
@@ -268,7 +280,7 @@ static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     if (self->rest_s >= REST_MAX_S) {
         jcal_hinge_refine_interrupt(&self->refine);
     } else if (self->has_point) {
-        self->credit_s -= jcal_hinge_refine_add(self, sample) ? (CLOSE_SLICES * SLICE_S) : 0.0f;
+        closed = jcal_hinge_refine_add(self, sample);
         watch_fit(self, sample);
     } else {
         /* nothing to refine yet */
@@ -276,6 +288,7 @@ static void sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     if ((self->motion > MOTION_MAX) || (self->moments.acc[jcal_sym_at(6u, 6u)] > ACC_WEIGHT_MAX)) {
         halve(self);
     }
+    return closed;
 }
 
 /// One slice of the cycle: 2 steps of the estimate, 5 slices of the global check, 1 judgement. Once the starts have
@@ -291,7 +304,7 @@ static void work(jcal_hinge_t *self)
         break;
     case SLICES_PER_CYCLE - 1u:
         jcal_hinge_judge(self);
-        self->credit_s -= (JUDGE_SLICES - 1.0f) * SLICE_S;
+        self->credit_s -= (JUDGE_SLICES - 1.0f) * slice_s(self);
         break;
     default:
         if (!rests) {
@@ -316,7 +329,7 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
     }
     const float dt_s = jcal_min(since_s, STEP_MAX_S);
     const jcal_hinge_sample_t sample = weigh(self, pair, dt_s);
-    sum_up(self, &sample);
+    const bool closed = sum_up(self, &sample);
     if (self->verdict.status == (uint8_t)JCAL_READY) {
         jcal_watch_start(&self->watch);
     }
@@ -324,9 +337,10 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
         begin_anew(self);
         return;
     }
-    self->credit_s = jcal_min(self->credit_s + dt_s, (float)SLICES_MAX * SLICE_S);
+    self->credit_s -= closed ? jcal_min(CLOSE_SLICES * slice_s(self), jcal_max(CLOSE_S, dt_s)) : 0.0f;
+    self->credit_s = jcal_min(self->credit_s + dt_s, (float)SLICES_MAX * slice_s(self));
     for (unsigned i = 0u; i < SLICES_MAX; ++i) {
-        const float price_s = (self->verdict.status == (uint8_t)JCAL_READY) ? SLICE_READY_S : SLICE_S;
+        const float price_s = slice_s(self) * ((self->verdict.status == (uint8_t)JCAL_READY) ? PRICE_READY : 1.0f);
         if (self->credit_s < price_s) {
             break;
         }

@@ -5,7 +5,8 @@
  * a file of the host, by semihosting. Equal hashes mean equal bits of every field of every result. The functions
  * replay_mark_* tell tools/budget.py's instruction counter where a call begins and ends.
  *
- * Compile definitions: REPLAY_TWO_DOF (stream engine of the 2-DoF joint; otherwise that of the hinge), REPLAY_WINDOW (window engine, N_max 125), REPLAY_SIXTEEN (sixteen stream engines, one call is the
+ * Compile definitions: REPLAY_TWO_DOF (stream engine of the 2-DoF joint; otherwise that of the hinge), REPLAY_WINDOW (window
+ * engine, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
  * the stack before every call and print how deep the deepest one went). */
 #include "jointcal/hinge.h"
@@ -78,7 +79,10 @@ static void engine_update(const jcal_hinge_t *last, const jcal_pair_t *pair)
 
 static jcal_status_t engine_init(void)
 {
-    const jcal_hinge_config_t config = jcal_hinge_config_default();
+    jcal_hinge_config_t config = jcal_hinge_config_default();
+#ifdef REPLAY_SLICES
+    config.slices_per_s = (float)REPLAY_SLICES;
+#endif
     jcal_status_t status = JCAL_OK;
     for (int k = 0; (k < INSTANCES) && (status == JCAL_OK); ++k) {
         status = jcal_hinge_init(&engines[k], &config);

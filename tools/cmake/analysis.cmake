@@ -9,6 +9,10 @@ list(TRANSFORM source_patterns APPEND "/*.c")
 file(GLOB_RECURSE format_files CONFIGURE_DEPENDS ${format_patterns})
 file(GLOB_RECURSE source_files CONFIGURE_DEPENDS ${source_patterns})
 list(APPEND format_files ${PROJECT_SOURCE_DIR}/port/vqf/jcal_vqf.cpp)
+# Code for microcontrollers and for QEMU, which no build for the PC compiles: read with these flags.
+set(port_patterns port/cortex_m/*.c port/boards/*.c)
+file(GLOB_RECURSE port_files CONFIGURE_DEPENDS ${port_patterns})
+set(port_flags -std=gnu99 -I ${PROJECT_SOURCE_DIR}/include -I ${PROJECT_SOURCE_DIR}/port/hub -I ${PROJECT_SOURCE_DIR}/port/boards/common)
 # Fuzz targets and the consumers' program are not part of this build, so nothing knows how to compile them.
 list(FILTER source_files EXCLUDE REGEX "host_tests/(fuzz|consumer)/")
 if(NOT TARGET jointcal_vqf)
@@ -30,6 +34,7 @@ if(JOINTCAL_CLANG_TIDY)
     add_custom_target(tidy
         COMMAND ${PROJECT_SOURCE_DIR}/tools/scripts/tidy.sh ${JOINTCAL_CLANG_TIDY} ${PROJECT_BINARY_DIR}
                 ${processors} ${source_files}
+        COMMAND ${JOINTCAL_CLANG_TIDY} --quiet ${port_files} -- ${port_flags}
         VERBATIM)
 endif()
 if(JOINTCAL_CPPCHECK)
@@ -37,6 +42,7 @@ if(JOINTCAL_CPPCHECK)
         COMMAND ${JOINTCAL_CPPCHECK} --quiet --std=c99 --error-exitcode=1 --inline-suppr -j ${processors}
                 --enable=warning,performance,portability --suppress=missingIncludeSystem -U JCAL_CONFIG_HEADER
                 --suppress=*:*/unity/* -I ${PROJECT_SOURCE_DIR}/include -I ${PROJECT_SOURCE_DIR}/lib
-                -I ${PROJECT_SOURCE_DIR}/tools/cli -I ${PROJECT_SOURCE_DIR}/port/hub -I ${PROJECT_SOURCE_DIR}/port/vqf -I ${PROJECT_SOURCE_DIR}/host_tests ${source_files}
+                -I ${PROJECT_SOURCE_DIR}/tools/cli -I ${PROJECT_SOURCE_DIR}/port/hub -I ${PROJECT_SOURCE_DIR}/host_tests -I ${PROJECT_SOURCE_DIR}/port/vqf
+                -I ${PROJECT_SOURCE_DIR}/port/boards/common ${source_files} ${port_files}
         VERBATIM)
 endif()

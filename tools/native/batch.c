@@ -20,6 +20,7 @@ void jcal_batch_defaults(jcal_batch_options_t *options)
         .lever_arm_m = hinge->lever_arm_m,
         .gyr_bias_rad_s = hinge->gyr_bias_rad_s,
         .acc_bias_m_s2 = hinge->acc_bias_m_s2,
+        .slices_per_s = hinge->slices_per_s,
         .n_max = window.n_max,
         .half_window = window.half_window,
         .acc_min = window.acc_min,
@@ -43,6 +44,7 @@ static jcal_hinge_window_config_t config_from(const jcal_batch_options_t *option
     hinge->lever_arm_m = options->lever_arm_m;
     hinge->gyr_bias_rad_s = options->gyr_bias_rad_s;
     hinge->acc_bias_m_s2 = options->acc_bias_m_s2;
+    hinge->slices_per_s = options->slices_per_s;
     window.n_max = (uint16_t)options->n_max;
     window.half_window = (uint16_t)options->half_window;
     window.acc_min = (uint16_t)options->acc_min;

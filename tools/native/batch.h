@@ -27,6 +27,7 @@ typedef struct {
     float lever_arm_m;
     float gyr_bias_rad_s;
     float acc_bias_m_s2;
+    float slices_per_s;
     int32_t n_max;
     int32_t half_window;
     int32_t acc_min;

@@ -16,10 +16,12 @@ void start_reset(void)
     CPACR |= 0xFu << 20;
     __asm volatile("dsb\n isb" ::: "memory");
     const uint32_t *from = &start_data_load;
+    // cppcheck-suppress comparePointers ; the linker script puts both into one section
     for (uint32_t *to = &start_data; to < &start_data_end; to++) {
         *to = *from;
         from++;
     }
+    // cppcheck-suppress comparePointers
     for (uint32_t *to = &start_bss; to < &start_bss_end; to++) {
         *to = 0;
     }

@@ -10,6 +10,8 @@
 #define CLOCK_HFCLKSTART REGISTER(CLOCK + 0x000u)
 #define CLOCK_HFCLKSTARTED REGISTER(CLOCK + 0x100u)
 
+#define NVMC_ICACHECNF REGISTER(0x4001E540u) /* bit 0: instruction cache on; off after reset */
+
 #define UART 0x40002000u
 #define UART_STARTRX REGISTER(UART + 0x000u)
 #define UART_STARTTX REGISTER(UART + 0x008u)
@@ -65,6 +67,7 @@ __attribute__((section(".vectors"), used)) const vector_t board_vectors[SYSTEM_V
 
 void board_init(void)
 {
+    NVMC_ICACHECNF = 1;
     /* The crystal, because the internal oscillator is too coarse for a UART. */
     CLOCK_HFCLKSTARTED = 0;
     CLOCK_HFCLKSTART = 1;

@@ -28,6 +28,7 @@ REJECTIONS = ("not_finite", "out_of_range", "saturated", "frozen", "repeated", "
 COLLECTING, AMBIGUOUS, READY, MOVED = range(4)
 ENGINES = {"stream": 0, "window": 1}
 SIGN_HINTS = {"unknown": 0, "same": 1, "opposite": 2}
+OVERRIDES: dict[str, float] = {}  # settings that measure.py puts over the library's defaults, for all runs
 BIAS_OFF = {"gyr_bias_rad_s": 1e-5, "acc_bias_m_s2": 1e-4}  # the config's smallest values: no bias to speak of
 
 
@@ -37,7 +38,8 @@ class Options(ctypes.Structure):
     _fields_ = [("engine", ctypes.c_int32), ("sign_hint", ctypes.c_int32), ("max_bound_rad", ctypes.c_float),
                 ("gyr_noise_rad_s", ctypes.c_float), ("acc_noise_m_s2", ctypes.c_float),
                 ("lever_arm_m", ctypes.c_float), ("gyr_bias_rad_s", ctypes.c_float),
-                ("acc_bias_m_s2", ctypes.c_float), ("n_max", ctypes.c_int32), ("half_window", ctypes.c_int32),
+                ("acc_bias_m_s2", ctypes.c_float), ("slices_per_s", ctypes.c_float), ("n_max", ctypes.c_int32),
+                ("half_window", ctypes.c_int32),
                 ("acc_min", ctypes.c_int32), ("accept_count", ctypes.c_int32), ("seed", ctypes.c_uint32),
                 ("w0", ctypes.c_float), ("energy_max_rad2_s2", ctypes.c_float), ("accept_bound_rad", ctypes.c_float),
                 ("solve_period_s", ctypes.c_float)]
@@ -125,7 +127,7 @@ def make_options(**settings: float | str) -> Options:
     options = Options()
     library().jcal_batch_defaults(ctypes.byref(options))
     known = {name for name, _ in Options._fields_}
-    for name, value in settings.items():
+    for name, value in {**OVERRIDES, **settings}.items():
         if name not in known:
             raise TypeError(f"'{name}' is not an option; there are {', '.join(sorted(known))}")
         words = {"engine": ENGINES, "sign_hint": SIGN_HINTS}.get(name)

@@ -7,7 +7,7 @@ import re
 import struct
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -27,6 +27,9 @@ class Platform:
     machine: str = ""
     flash: int = 0
     ram: int = 0x20000000
+    flash_bytes: int = 0x400000
+    ram_bytes: int = 0x400000
+    stack_bytes: int = 0x4000
 
 
 def from_toolchain_file(name: str) -> Platform:
@@ -35,7 +38,9 @@ def from_toolchain_file(name: str) -> Platform:
                     int(values["RAM"], 16))
 
 
-PLATFORMS = {"host": Platform("host", ()), "m4f": from_toolchain_file("m4f"), "m3": from_toolchain_file("m3")}
+# The smallest one: the program with its buffers, the engine and its stack in 16 KiB of RAM.
+MICROBIT = replace(from_toolchain_file("m0"), machine="microbit", flash_bytes=0x40000, ram_bytes=0x4000, stack_bytes=0x1000)
+PLATFORMS = {"host": Platform("host", ()), "m4f": from_toolchain_file("m4f"), "m3": from_toolchain_file("m3"), "m0": MICROBIT}
 
 
 def resampled(rows: list[list[float]], rate_hz: float, seconds: float) -> list[list[float]]:
@@ -94,8 +99,8 @@ def build(platform: Platform, name: str, definitions: tuple[str, ...] = (), sour
     image = WORK / platform.name / f"{name}.elf"
     common = [*PROGRAM_FLAGS, *[f"-D{d}" for d in definitions], f"-I{ROOT}/include", PORT / source]
     if platform.cpu:
-        symbols = {"flash": platform.flash, "flash_size": 0x400000, "ram": platform.ram, "ram_size": 0x400000,
-                   "stack_size": 0x4000}
+        symbols = {"flash": platform.flash, "flash_size": platform.flash_bytes, "ram": platform.ram,
+                   "ram_size": platform.ram_bytes, "stack_size": platform.stack_bytes}
         subprocess.run(["arm-none-eabi-gcc", "--specs=picolibc.specs", "--crt0=hosted", "--oslib=semihost", *platform.cpu,
                         *common, PORT / "fault.c", *objects, "-Wl,--gc-sections", "-Tpicolibc.ld", "-o", image, "-lm",
                         *[f"-Wl,--defsym=__{key}={value:#x}" for key, value in symbols.items()]], check=True)
