@@ -252,7 +252,7 @@ static void form_in_u(const float *m, const float *pairs, float *out)
 }
 
 void jcal_two_dof_costs(const jcal_two_dof_moments_t *moments, jcal_constraint_t constraint,
-                        const jcal_two_dof_point_t *point, const jcal_plane_t *headings, unsigned count, float *costs)
+                        const jcal_two_dof_point_t *point, jcal_two_dof_guess_t *guesses, unsigned count)
 {
     float pairs[PAIRS];
     float f[JCAL_SYM_SIZE(3u)];
@@ -266,14 +266,14 @@ void jcal_two_dof_costs(const jcal_two_dof_moments_t *moments, jcal_constraint_t
     }
     const float per_weight = (moments->weight > 0.0f) ? (1.0f / moments->weight) : 0.0f;
     for (unsigned i = 0u; i < count; ++i) {
-        const float u[3] = {headings[i].re, headings[i].im, 1.0f};
+        const float u[3] = {guesses[i].heading.re, guesses[i].heading.im, 1.0f};
         const float sum = (mean[0] * u[0]) + (mean[1] * u[1]) + mean[2];
         const float square = jcal_sym_quadratic(g, 3u, u);
         const float normal2 = jcal_max(1.0f - (square * per_weight), NORMAL2_MIN);
         const float part1 = jcal_sym_quadratic(f, 3u, u) / normal2;
         const float part2 = square - (sum * sum * per_weight);
-        costs[i] = ((constraint == JCAL_CONSTRAINT_ORIENTATION) ? 0.0f : part1) +
-                   ((constraint == JCAL_CONSTRAINT_ROTATION) ? 0.0f : part2);
+        guesses[i].cost = ((constraint == JCAL_CONSTRAINT_ORIENTATION) ? 0.0f : part1) +
+                          ((constraint == JCAL_CONSTRAINT_ROTATION) ? 0.0f : part2);
     }
 }
 

@@ -50,11 +50,17 @@ void jcal_two_dof_form(const float *m, const jcal_two_dof_point_t *point, jcal_t
 void jcal_two_dof_combine(const jcal_two_dof_moments_t *moments, jcal_constraint_t constraint,
                           const jcal_two_dof_point_t *point, jcal_two_dof_lin_t *lin, float *parts);
 
-/// As jcal_two_dof_form and jcal_two_dof_combine: the cost for `count` headings at once.
+/// A heading offset and the cost there.
+typedef struct {
+    jcal_plane_t heading;
+    float cost;
+} jcal_two_dof_guess_t;
+
+/// The cost of jcal_two_dof_combine at the axes of `point` for `count` heading offsets at once.
 ///
 /// Cost: about 900 multiply-adds and 60 for each heading.
 void jcal_two_dof_costs(const jcal_two_dof_moments_t *moments, jcal_constraint_t constraint,
-                        const jcal_two_dof_point_t *point, const jcal_plane_t *headings, unsigned count, float *costs);
+                        const jcal_two_dof_point_t *point, jcal_two_dof_guess_t *guesses, unsigned count);
 
 /// Refers all sums to a heading offset that is larger by `turn`: samples taken at delta look as if taken at delta + turn.
 ///

@@ -38,28 +38,28 @@ static void slope_times(const view_t *view, const float *v, float *out)
     out[1] = (view->slope[0][1] * v[0]) + (view->slope[1][1] * v[1]);
 }
 
-/* out (2 x 2) <- left' block right, the block of the packed 4 x 4 matrix m whose first element is (row, column) */
-static void turn_block(const float *m, size_t row, const view_t *left, size_t column, const view_t *right,
-                       float out[2][2])
+/* out (2 x 2) <- S_i' block S_k, the block of the packed 4 x 4 matrix m of axes i and k */
+static void turn_block(const float *m, const view_t views[2], size_t i, size_t k, float out[2][2])
 {
     float on[2][2]; /* rows of the block times the right slope */
-    for (size_t i = 0u; i < 2u; ++i) {
-        const float block[2] = {m[jcal_sym_at(row + i, column)], m[jcal_sym_at(row + i, column + 1u)]};
-        slope_times(right, block, on[i]);
+    for (size_t a = 0u; a < 2u; ++a) {
+        const size_t row = (2u * i) + a;
+        const float block[2] = {m[jcal_sym_at(row, 2u * k)], m[jcal_sym_at(row, (2u * k) + 1u)]};
+        slope_times(&views[k], block, on[a]);
     }
-    for (size_t k = 0u; k < 2u; ++k) {
-        const float v[2] = {on[0][k], on[1][k]};
-        float column_of[2];
-        slope_times(left, v, column_of);
-        out[0][k] = column_of[0];
-        out[1][k] = column_of[1];
+    for (size_t b = 0u; b < 2u; ++b) {
+        const float v[2] = {on[0][b], on[1][b]};
+        float column[2];
+        slope_times(&views[i], v, column);
+        out[0][b] = column[0];
+        out[1][b] = column[1];
     }
 }
 
 /* Cost, and half the gradient (4) in the tilts at the place of the views. */
-static float slope_of(const jcal_two_dof_prior_t *prior, const view_t *view1, const view_t *view2, float *gradient)
+static float slope_of(const jcal_two_dof_prior_t *prior, const view_t views[2], float *gradient)
 {
-    const float offset[TILTS] = {view1->offset[0], view1->offset[1], view2->offset[0], view2->offset[1]};
+    const float offset[TILTS] = {views[0].offset[0], views[0].offset[1], views[1].offset[0], views[1].offset[1]};
     float on[TILTS];
     float cost = 0.0f;
     jcal_sym_times(prior->matrix, TILTS, offset, on);
@@ -67,8 +67,8 @@ static float slope_of(const jcal_two_dof_prior_t *prior, const view_t *view1, co
         cost += offset[i] * (on[i] + (2.0f * prior->gradient[i]));
         on[i] += prior->gradient[i];
     }
-    slope_times(view1, &on[0], &gradient[0]);
-    slope_times(view2, &on[2], &gradient[2]);
+    slope_times(&views[0], &on[0], &gradient[0]);
+    slope_times(&views[1], &on[2], &gradient[2]);
     return cost;
 }
 
@@ -76,20 +76,19 @@ static float slope_of(const jcal_two_dof_prior_t *prior, const view_t *view1, co
 static float view_prior(const jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point, float *gradient,
                         float *matrix)
 {
-    const view_t view1 = view_of(prior->j1, point->j1);
-    const view_t view2 = view_of(prior->j2, point->j2);
+    const view_t views[2] = {view_of(prior->j1, point->j1), view_of(prior->j2, point->j2)};
     float first[2][2];
     float cross[2][2];
     float second[2][2];
-    turn_block(prior->matrix, 0u, &view1, 0u, &view1, first);
-    turn_block(prior->matrix, 2u, &view2, 0u, &view1, cross);
-    turn_block(prior->matrix, 2u, &view2, 2u, &view2, second);
+    turn_block(prior->matrix, views, 0u, 0u, first);
+    turn_block(prior->matrix, views, 1u, 0u, cross);
+    turn_block(prior->matrix, views, 1u, 1u, second);
     const float packed[JCAL_SYM_SIZE(TILTS)] = {first[0][0],  first[1][0], first[1][1], cross[0][0],  cross[0][1],
                                                 second[0][0], cross[1][0], cross[1][1], second[1][0], second[1][1]};
     for (size_t i = 0u; i < JCAL_SYM_SIZE(TILTS); ++i) {
         matrix[i] = packed[i];
     }
-    return slope_of(prior, &view1, &view2, gradient);
+    return slope_of(prior, views, gradient);
 }
 
 void jcal_two_dof_prior_apply(const jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point,
@@ -112,10 +111,9 @@ void jcal_two_dof_prior_apply(const jcal_two_dof_prior_t *prior, const jcal_two_
 
 float jcal_two_dof_prior_cost(const jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point)
 {
-    const view_t view1 = view_of(prior->j1, point->j1);
-    const view_t view2 = view_of(prior->j2, point->j2);
+    const view_t views[2] = {view_of(prior->j1, point->j1), view_of(prior->j2, point->j2)};
     float gradient[TILTS];
-    return slope_of(prior, &view1, &view2, gradient);
+    return slope_of(prior, views, gradient);
 }
 
 void jcal_two_dof_prior_take(jcal_two_dof_prior_t *prior, const jcal_two_dof_point_t *point,

@@ -162,9 +162,9 @@ static float advance(jcal_two_dof_t *self)
 /// Costs of the estimate and of the rival, prior included, at the same time.
 static float cost_at(const jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
 {
-    float cost;
-    jcal_two_dof_costs(&self->moments, self->cfg.constraint, point, &point->heading, 1u, &cost);
-    return (cost / self->verdict.excess) + jcal_two_dof_prior_cost(&self->prior, point);
+    jcal_two_dof_guess_t guess = {point->heading, 0.0f};
+    jcal_two_dof_costs(&self->moments, self->cfg.constraint, point, &guess, 1u);
+    return (guess.cost / self->verdict.excess) + jcal_two_dof_prior_cost(&self->prior, point);
 }
 
 /// The estimate with the order of its axes exchanged, as the segments stand now: j1' = R1' D R2 j2, j2' = R2' D' R1 j1.
@@ -189,9 +189,10 @@ static jcal_two_dof_point_t exchanged(const jcal_two_dof_t *self)
 static void begin_probe(jcal_two_dof_t *self)
 {
     jcal_two_dof_search_t *const search = &self->search;
-    static const jcal_plane_t turns[HEADINGS] = {
-        {1.0f, 0.0f},  {0.70710678f, 0.70710678f},   {0.0f, 1.0f},  {-0.70710678f, 0.70710678f},
-        {-1.0f, 0.0f}, {-0.70710678f, -0.70710678f}, {0.0f, -1.0f}, {0.70710678f, -0.70710678f}};
+    jcal_two_dof_guess_t guesses[HEADINGS] = {{{1.0f, 0.0f}, 0.0f},  {{0.70710678f, 0.70710678f}, 0.0f},
+                                              {{0.0f, 1.0f}, 0.0f},  {{-0.70710678f, 0.70710678f}, 0.0f},
+                                              {{-1.0f, 0.0f}, 0.0f}, {{-0.70710678f, -0.70710678f}, 0.0f},
+                                              {{0.0f, -1.0f}, 0.0f}, {{0.70710678f, -0.70710678f}, 0.0f}};
     if (self->has_best && (search->since_exchange >= EXCHANGE_EVERY)) {
         search->since_exchange = 0u;
         search->exchanges = (uint8_t)((search->exchanges < UINT8_MAX) ? (search->exchanges + 1u) : UINT8_MAX);
@@ -201,14 +202,13 @@ static void begin_probe(jcal_two_dof_t *self)
         return;
     }
     search->since_exchange = (uint8_t)(search->since_exchange + 1u);
-    float costs[HEADINGS];
-    jcal_two_dof_point_t point = {line_of(search->start / LINES), line_of(search->start % LINES), turns[0]};
-    jcal_two_dof_costs(&self->moments, self->cfg.constraint, &point, turns, HEADINGS, costs);
+    jcal_two_dof_point_t point = {line_of(search->start / LINES), line_of(search->start % LINES), guesses[0].heading};
+    jcal_two_dof_costs(&self->moments, self->cfg.constraint, &point, guesses, HEADINGS);
     unsigned least = 0u;
     for (unsigned i = 1u; i < HEADINGS; ++i) {
-        least = (costs[i] < costs[least]) ? i : least;
+        least = (guesses[i].cost < guesses[least].cost) ? i : least;
     }
-    point.heading = turns[least];
+    point.heading = guesses[least].heading;
     begin(&search->probe, &point);
     search->start = (uint8_t)((search->start + START_STRIDE) % STARTS);
     search->probing = true;
