@@ -22,6 +22,7 @@ BUDGETS = target.PORT / "budgets.json"
 PAGE = target.ROOT / "docs/measurements/budget.md"
 M4F = target.PLATFORMS["m4f"]
 ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
+TWO_DOF = "two_dof_stream"
 INSTANCES, RATE_HZ = 16, 100
 SLICES_PER_S, TABLED_HZ = (200, 100, 50, 25), (50, 100)
 LISTED = 8
@@ -30,7 +31,7 @@ LISTED = 8
 def counts_of(plugin: Path, engine: str, samples: Path, definitions: tuple[str, ...]) -> tuple[dict, dict, dict]:
     """Counts of every call by kind (`cycles`: low, high, instructions), the worst call's by function, what the program printed."""
     name = f"replay_{engine}_{'_'.join(definitions).lower().replace('=', '_')}"
-    image = target.build(M4F, name, ENGINES[engine] + definitions)
+    image = target.build(M4F, name, ENGINES.get(engine, ("REPLAY_TWO_DOF",)) + definitions)
     out = target.WORK / "counts.txt"
     printed = target.run(M4F, image, samples, plugin, out)
     counts: dict[str, list[int]] = {}
@@ -93,6 +94,20 @@ def sixteen(recording: Path) -> dict:
             "sixteen_hinges_state_bytes": INSTANCES * printed["state"]}
 
 
+def two_dof(stack: dict[str, int]) -> dict:
+    """The 2-DoF stream engine, fed with orientations at 100 Hz."""
+    recording = target.recordings(["rig_2D_05"], "two_dof_demo")[0]
+    samples = target.orientations_file(recording, RATE_HZ)
+    counts, _, printed = counts_of(target.build_plugin(), TWO_DOF, samples, ("REPLAY_STACK",))
+    at_50, _, _ = counts_of(target.build_plugin(), TWO_DOF, target.orientations_file(recording, 50), ())
+    return {f"{TWO_DOF}_push_instructions_max": max(counts["update"]),
+            f"{TWO_DOF}_push_instructions_mean": round(statistics.mean(counts["update"])),
+            f"{TWO_DOF}_push_instructions_50_hz_max": max(at_50["update"]),
+            f"{TWO_DOF}_push_instructions_50_hz_mean": round(statistics.mean(at_50["update"])),
+            f"{TWO_DOF}_state_bytes": printed["state"], f"{TWO_DOF}_stack_painted_bytes": printed["stack"],
+            f"{TWO_DOF}_stack_call_graph_bytes": stack.get("jcal_two_dof_update", 0)}
+
+
 def fewer_slices(recording: Path) -> dict:
     """Instructions of an update by slices_per_s and rate, on the first minute of the recording at that rate."""
     plugin, found = target.build_plugin(), {}
@@ -147,6 +162,7 @@ def measure(samples: Path, recording: Path) -> tuple[dict, dict]:
         numbers[f"hinge_{engine}_state_bytes"] = of["state"]
         numbers[f"hinge_{engine}_stack_painted_bytes"] = of["stack"]
         numbers[f"hinge_{engine}_stack_call_graph_bytes"] = stack.get(f"jcal_{prefix}_update", 0)
+    numbers |= two_dof(stack)
     numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
     numbers |= sixteen(recording)
     numbers["hub_flash_bytes"] = linked_bytes("hub") - linked_bytes("hub_empty", ("HUB_EMPTY",))
@@ -175,7 +191,8 @@ def page_of(numbers: dict, code: dict) -> str:
              "push and step together, as in jcal_hinge_update. The window engine has N_max 125. `code_bytes` is the whole library;",
              "`hub_flash_bytes` what one stream engine, fed and read, adds to a linked image with unused sections dropped. Sixteen",
              "hinges: one image, one tick of 10 ms updates all, on the first minute of the recording interpolated to 100 Hz; all",
-             "get the same samples, so that their busy moments coincide. In their busiest second that is "
+             "get the same samples, so that their busy moments coincide. `two_dof_stream`: the recording interpolated to 100 Hz (and 50),",
+             "orientations by VQF, whose cost is not in these numbers (port/vqf/README.md has it). In their busiest second that is "
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * low / 1e6:.0f} to",
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * high / 1e6:.0f} million cycles, by the estimate below, of 64 million.", "",
              "Instructions, not cycles; no board was measured. On paper, the instructions of the stream engine on this recording",

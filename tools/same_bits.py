@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Same recording, same bits: hashes every result of both hinge engines on the host, on a Cortex-M4F, on a Cortex-M3 without
-FPU, and of the stream engine on a Cortex-M0 with 16 KiB of RAM. Prints a hash per recording, engine and platform, writes
+"""Same recording, same bits: hashes every result of all engines on the host, on a Cortex-M4F, on a Cortex-M3 without FPU, and of
+the stream engines on a Cortex-M0 with 16 KiB of RAM. Prints a hash per recording, engine and platform, writes
 docs/measurements/same_bits.md and exits with 1 if any of them differ. Recordings are those of JOINTCAL_DATA if it is set, and the
 bundled one.
 
@@ -13,26 +13,33 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent / "python"))
 from jointcal_tools import target  # noqa: E402
 
-NAMES = ["rig_1D_01", "rig_1D_02", "rig_1D_04"]
-ENGINES = {"stream": (), "window, N_max 125": ("REPLAY_WINDOW",)}
-NOT_ON = {"window, N_max 125": ("m0",)}  # its buffers and those of the program are more than 16 KiB
+HINGES = ["rig_1D_01", "rig_1D_02", "rig_1D_04"], "hinge_demo"
+TWO_DOF = ["rig_2D_01", "rig_2D_02", "rig_2D_05"], "two_dof_demo"
+# What the image is called, its definitions, recordings, and how they become samples.
+ENGINES = {"hinge, stream": ("hinge_stream", (), HINGES, target.samples_file),
+           "hinge, window, N_max 125": ("hinge_window", ("REPLAY_WINDOW",), HINGES, target.samples_file),
+           "two-dof, stream": ("two_dof_stream", ("REPLAY_TWO_DOF",), TWO_DOF, target.orientations_file)}
+NOT_ON = {"hinge, window, N_max 125": ("m0",)}  # its buffers and those of the program are more than 16 KiB
 PAGE = target.ROOT / "docs/measurements/same_bits.md"
 
 
+def recordings_of(names: list[str], bundled: str) -> list[Path]:
+    demo = target.ROOT / f"tools/demo/{bundled}.csv"
+    return [r for r in target.recordings(names, bundled) if r != demo] + [demo]
+
+
 def main() -> int:
-    demo = target.ROOT / "tools/demo/hinge_demo.csv"
-    recordings = [r for r in target.recordings(NAMES) if r != demo] + [demo]
     lines = ["# Same bits", "",
              "Written by `tools/same_bits.py`: FNV-1a (64 bit) over every field of the result after every sample. m0 is QEMU's",
              "microbit, a Cortex-M0 with 16 KiB of RAM; the window engine does not fit there beside the program that feeds it.", "",
              "| recording | samples | engine | " + " | ".join(target.PLATFORMS) + " | same |",
              "|---|---|---|" + "---|" * (len(target.PLATFORMS) + 1)]
     same_everywhere = True
-    for engine, definitions in ENGINES.items():
-        images = {name: target.build(platform, f"same_bits_{engine.split(',')[0]}", definitions)
+    for engine, (image_name, definitions, recordings, make_samples) in ENGINES.items():
+        images = {name: target.build(platform, f"same_bits_{image_name}", definitions)
                   for name, platform in target.PLATFORMS.items() if name not in NOT_ON.get(engine, ())}
-        for recording in recordings:
-            samples = target.samples_file(recording)
+        for recording in recordings_of(*recordings):
+            samples = make_samples(recording)
             printed = {name: target.run(target.PLATFORMS[name], image, samples) for name, image in images.items()}
             same = len({of["hash"] for of in printed.values()}) == 1
             same_everywhere &= same

@@ -2,6 +2,7 @@
 """Builds port/cortex_m/replay.c for a target or the host and runs it over a recording: for tools/budget.py and
 tools/same_bits.py. Needs gcc-arm-none-eabi, picolibc-arm-none-eabi and qemu-system-arm; standard library only."""
 import csv
+import ctypes
 import os
 import re
 import struct
@@ -55,26 +56,55 @@ def resampled(rows: list[list[float]], rate_hz: float, seconds: float) -> list[l
     return found
 
 
+def rows_of(recording: Path) -> list[list[float]]:
+    """Time and twelve readings of every row."""
+    with open(recording, newline="", encoding="utf-8") as lines:
+        return [[float(row["t_s"])] + [float(row[column]) if row[column] else float("nan") for column in COLUMNS]
+                for row in csv.DictReader(line for line in lines if not line.startswith("#"))]
+
+
 def samples_file(recording: Path, rate_hz: float | None = None, seconds: float = 60.0) -> Path:
     """The recording's samples as jcal_pair_t, in a folder of its own as samples.bin; with a rate, its beginning only."""
     folder = WORK / "samples" / (recording.stem + (f"_{rate_hz:g}hz" if rate_hz else ""))
     folder.mkdir(parents=True, exist_ok=True)
-    with open(recording, newline="", encoding="utf-8") as lines:
-        rows = [[float(row["t_s"])] + [float(row[column]) if row[column] else float("nan") for column in COLUMNS]
-                for row in csv.DictReader(line for line in lines if not line.startswith("#"))]
+    rows = rows_of(recording)
     rows = resampled(rows, rate_hz, seconds) if rate_hz else rows
     part = folder / f"samples.{os.getpid()}"  # renamed when complete: another run may be reading
     part.write_bytes(b"".join(struct.pack("<Q12f", round(row[0] * 1e6), *row[1:]) for row in rows))
     return part.replace(folder / "samples.bin")
 
 
-def recordings(names: list[str]) -> list[Path]:
+def vqf(rows: list[list[float]], sensor: int, period_s: float) -> list[tuple[float, ...]]:
+    """Orientations of one sensor by VQF, from libjcal_batch of the host's build."""
+    library = ctypes.CDLL(str(ROOT / "build/host/libjcal_batch.so"))
+    first = 1 + 6 * (sensor - 1)
+    values = (ctypes.c_float * (6 * len(rows)))(*(x for row in rows for x in row[first:first + 6]))
+    out = (ctypes.c_float * (4 * len(rows)))()
+    if library.jcal_batch_vqf(values, ctypes.c_size_t(len(rows)), ctypes.c_float(period_s), out) != 0:
+        raise RuntimeError("build/host was built without VQF: run tools/vqf.sh and build again")
+    return [tuple(out[4 * k:4 * k + 4]) for k in range(len(rows))]
+
+
+def orientations_file(recording: Path, rate_hz: float | None = None, seconds: float = 300.0) -> Path:
+    """As samples_file, but the orientations of both sensors, as jcal_orientation_pair_t."""
+    folder = WORK / "orientations" / (recording.stem + (f"_{rate_hz:g}hz" if rate_hz else ""))
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = rows_of(recording)
+    rows = resampled(rows, rate_hz, seconds) if rate_hz else rows
+    steps = sorted(b[0] - a[0] for a, b in zip(rows, rows[1:]))
+    pairs = zip(rows, *(vqf(rows, sensor, steps[len(steps) // 2]) for sensor in (1, 2)))
+    part = folder / f"samples.{os.getpid()}"
+    part.write_bytes(b"".join(struct.pack("<Q8f", round(row[0] * 1e6), *q1, *q2) for row, q1, q2 in pairs))
+    return part.replace(folder / "samples.bin")
+
+
+def recordings(names: list[str], bundled: str = "hinge_demo") -> list[Path]:
     """The named recordings of $JOINTCAL_DATA, or the bundled one, with a message, if they are not there."""
     data = Path(os.environ.get("JOINTCAL_DATA", ROOT / "data"))
     found = [data / f"{name}.csv" for name in names if (data / f"{name}.csv").exists()]
     if not found:
         print(f"No recordings in {data} (JOINTCAL_DATA): the bundled demo recording stands in for them.", file=sys.stderr)
-    return found or [ROOT / "tools/demo/hinge_demo.csv"]
+    return found or [ROOT / f"tools/demo/{bundled}.csv"]
 
 
 def compile_objects(platform: Platform, level: str, extra: tuple[str, ...] = ()) -> list[Path]:
