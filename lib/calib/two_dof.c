@@ -11,6 +11,7 @@
 #include "jointcal/quat.h"
 #include "math/angle.h"
 #include "math/scalar.h"
+#include "sample/rate.h"
 
 #include <float.h>
 #include <math.h>
@@ -154,18 +155,6 @@ static const jcal_orientation_pair_t *kept(const jcal_two_dof_t *self, uint32_t 
     return &self->ring[(self->taken - 1u - back) % JCAL_TWO_DOF_RING];
 }
 
-/// Mean rate in the earth frame between two orientations, rad/s: (A41), (A42) of [LAI22], without the arc cosine that loses small
-/// angles.
-static jcal_vec3_t rate_between(jcal_quat_t from, jcal_quat_t to, float dt_s)
-{
-    const jcal_quat_t turn = jcal_quat_mul(to, jcal_quat_conj(from));
-    const float sign = (turn.w < 0.0f) ? -1.0f : 1.0f;
-    const jcal_vec3_t v = jcal_vec3(sign * turn.x, sign * turn.y, sign * turn.z);
-    const float sine = jcal_vec3_norm(v);
-    const float per_sine = (sine > 1e-4f) ? (2.0f * jcal_atan2(sine, sign * turn.w) / sine) : 2.0f;
-    return jcal_vec3_scale(v, per_sine / dt_s);
-}
-
 /// The sample in the middle of the last three kept; false if there is none. `dt_s` is the time it stands for.
 static bool middle(const jcal_two_dof_t *self, jcal_two_dof_sample_t *sample, float *dt_s)
 {
@@ -183,8 +172,8 @@ static bool middle(const jcal_two_dof_t *self, jcal_two_dof_sample_t *sample, fl
     *dt_s = 0.5f * (to_s + on_s);
     sample->q1 = at->q1;
     sample->q2 = at->q2;
-    sample->w1 = rate_between(before->q1, after->q1, to_s + on_s);
-    sample->w2 = rate_between(before->q2, after->q2, to_s + on_s);
+    sample->w1 = jcal_rate_between(before->q1, after->q1, to_s + on_s);
+    sample->w2 = jcal_rate_between(before->q2, after->q2, to_s + on_s);
     return true;
 }
 
