@@ -17,7 +17,7 @@
 #define JCAL_WATCH_RATIO 6.0f
 
 /// What is usual is never taken for less than this: a calm moment is no measure.
-#define JCAL_WATCH_LEAST 0.5f
+#define JCAL_WATCH_LEAST 0.25f
 
 /// A square counts at most this many times the usual: a few samples spoilt by a lost packet are no slip.
 #define JCAL_WATCH_CLIP 50.0f
@@ -38,7 +38,8 @@ static inline void jcal_watch_add(jcal_watch_t *self, unsigned kind, float squar
     const float clipped = jcal_min(square, JCAL_WATCH_CLIP * usual);
     self->recent[kind] += (clipped - self->recent[kind]) * (motion_s / (motion_s + JCAL_WATCH_RECENT_S));
     if (self->on) {
-        self->usual[kind] += (self->recent[kind] - self->usual[kind]) * (motion_s / (motion_s + JCAL_WATCH_USUAL_S));
+        self->seen_s[kind] = jcal_min(self->seen_s[kind] + motion_s, JCAL_WATCH_USUAL_S);
+        self->usual[kind] += (self->recent[kind] - self->usual[kind]) * (motion_s / self->seen_s[kind]);
     }
 }
 
@@ -48,6 +49,8 @@ static inline void jcal_watch_start(jcal_watch_t *self)
     if (!self->on) {
         self->usual[0] = self->recent[0];
         self->usual[1] = self->recent[1];
+        self->seen_s[0] = JCAL_WATCH_RECENT_S;
+        self->seen_s[1] = JCAL_WATCH_RECENT_S;
         self->on = true;
     }
 }
