@@ -108,6 +108,7 @@ static recording_event_t read_header(recording_t *recording)
     recording->has_orientations = true;
     for (size_t k = RECORDING_COLUMNS; k < ALL_COLUMNS; k++) {
         recording->has_orientations = recording->has_orientations && found[k];
+        recording->found_orientations |= found[k] ? (1u << (k - RECORDING_COLUMNS)) : 0u;
     }
     return check_missing(recording, found);
 }
@@ -145,6 +146,47 @@ recording_event_t recording_open(recording_t *recording, csv_read_t *read, void 
     memset(recording, 0, sizeof *recording);
     csv_open(&recording->csv, read, context);
     return read_header(recording);
+}
+
+/* Names the columns of one sensor's orientation that are missing, at the first one that is there. */
+static recording_event_t part_missing(recording_t *recording, size_t first)
+{
+    char names[64] = "";
+    size_t length = 0;
+    const csv_cell_t *there = NULL;
+    for (size_t k = first; k < first + 4; k++) {
+        if ((recording->found_orientations >> (k - RECORDING_COLUMNS) & 1u) != 0u) {
+            const csv_cell_t *cell = &recording->csv.cells[recording->index[k]];
+            there = (there == NULL || cell->column < there->column) ? cell : there;
+        } else {
+            length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", (length == 0) ? "" : ", ",
+                                       COLUMN_NAMES[k]);
+        }
+    }
+    return bad(recording, there->line, there->column, "%s without %s: an orientation has four columns", there->text,
+               names);
+}
+
+recording_event_t recording_check_orientations(recording_t *recording)
+{
+    for (size_t sensor = 0; sensor < 2; sensor++) {
+        const unsigned found = (recording->found_orientations >> (4 * sensor)) & 15u;
+        if (found != 0u && found != 15u) {
+            return part_missing(recording, RECORDING_COLUMNS + 4 * sensor);
+        }
+    }
+    return RECORDING_ROW;
+}
+
+recording_event_t recording_refuse(recording_t *recording, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    recording->fault.line = 0;
+    recording->fault.column = 0;
+    (void)vsnprintf(recording->fault.text, sizeof recording->fault.text, format, arguments);
+    va_end(arguments);
+    return RECORDING_BAD;
 }
 
 recording_event_t recording_next(recording_t *recording, recording_row_t *row)
