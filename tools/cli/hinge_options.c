@@ -53,7 +53,7 @@ static uint16_t sample_count(struct argp_state *state, const char *text)
 static void check(struct argp_state *state, const parse_t *parse)
 {
     const engine_config_t *engine = &parse->options.engine;
-    if (parse->options.recording == NULL) {
+    if (parse->options.common.recording == NULL) {
         argp_error(state, "which recording? Give a file name, or - for standard input");
     }
     if (parse->has_n_max && engine->kind == JCAL_ENGINE_STREAM) {
@@ -89,7 +89,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         parse->has_window = true;
         return 0;
     case KEY_EVERY:
-        parse->options.every_us = option_duration(state, "every", argument);
+        parse->options.common.every_us = option_duration(state, "every", argument);
         return 0;
     case KEY_MAX_BOUND:
         engine->config.hinge.max_bound_rad = option_positive(state, "max-bound", argument) * RAD_PER_DEG;
@@ -100,13 +100,13 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
                                              : JCAL_SIGN_OPPOSITE;
         return 0;
     case KEY_JSON:
-        parse->options.json = true;
+        parse->options.common.json = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (parse->options.recording != NULL) {
+        if (parse->options.common.recording != NULL) {
             argp_error(state, "one recording at a time, and '%s' is a second one", argument);
         }
-        parse->options.recording = argument;
+        parse->options.common.recording = argument;
         return 0;
     case ARGP_KEY_END:
         check(state, parse);

@@ -40,9 +40,9 @@ typedef struct {
     csv_t csv;
     recording_fault_t fault;
     size_t header_cells;
-    bool has_orientations;   ///< The header names all of q1_w ... q2_z.
-    bool want_orientations;  ///< Set after recording_open: read them, and complain about text in them.
-    unsigned found_orientations;                                     /* a bit for each of q1_w ... q2_z */
+    bool has_orientations;       ///< The header names all of q1_w ... q2_z.
+    bool want_orientations;      ///< Set after recording_open: read them, and complain about text in them.
+    unsigned found_orientations; /* a bit for each of q1_w ... q2_z */
     size_t index[RECORDING_COLUMNS + RECORDING_ORIENTATION_COLUMNS]; /* cell of each column we want */
 } recording_t;
 

@@ -1,9 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* What `jointcal hinge` tells a person. */
-#include "hinge_summary.h"
-
-#include "json.h"
+/* What the program tells a person of any joint. */
 #include "message.h"
+#include "report.h"
 
 #include <inttypes.h>
 
@@ -27,21 +25,22 @@ static const char *status_words(jcal_calibration_t status)
     }
 }
 
-static const char *reason_words(jcal_reason_t reason)
+static const char *reason_words(const report_t *report)
 {
-    switch (reason) {
+    switch (report->finding.reason) {
     case JCAL_REASON_NO_DATA:
         return "too few usable samples";
     case JCAL_REASON_NO_MOTION:
         return "the segments hardly turn against each other";
     case JCAL_REASON_UNCERTAIN:
-        return "an axis is not known well enough";
+        return report->finding.weak == JCAL_WEAK_HEADING ? "the heading is not known well enough"
+                                                         : "an axis is not known well enough";
     case JCAL_REASON_SIGN_OPEN:
         return "both sign pairings explain the data about equally";
     case JCAL_REASON_OTHER_MINIMUM:
-        return "other axes explain the data about equally";
+        return report->words->ambiguous;
     case JCAL_REASON_DOES_NOT_FIT:
-        return "no hinge explains the data: another kind of joint, or sensors that share none";
+        return report->words->misfit;
     case JCAL_REASON_BAD_SAMPLES:
         return "too many samples are rejected";
     case JCAL_REASON_WRONG_UNITS_GYR:
@@ -54,11 +53,11 @@ static const char *reason_words(jcal_reason_t reason)
     }
 }
 
-static const char *hint_words(jcal_hint_t hint)
+static const char *hint_words(const report_t *report)
 {
-    switch (hint) {
+    switch (report->finding.hint) {
     case JCAL_HINT_MOVE_JOINT:
-        return "bend and stretch the joint";
+        return report->words->move_joint;
     case JCAL_HINT_MOVE_SEGMENT1:
         return "turn the proximal segment, the one with sensor 1";
     case JCAL_HINT_MOVE_SEGMENT2:
@@ -82,6 +81,8 @@ static const char *weak_words(jcal_weak_t weak)
         return "axis in sensor 2";
     case JCAL_WEAK_SIGN:
         return "sign pairing";
+    case JCAL_WEAK_HEADING:
+        return "heading offset of the two orientations";
     case JCAL_WEAK_NONE:
     default:
         return NULL;
@@ -111,8 +112,7 @@ static const char *reject_words(jcal_reject_t reject)
     }
 }
 
-/* A labelled line, or nothing if there are no words. */
-static void print_words(FILE *file, const char *label, const char *words)
+void report_print_words(FILE *file, const char *label, const char *words)
 {
     if (words != NULL) {
         (void)fprintf(file, "  %-18s %s\n", label, words);
@@ -122,7 +122,7 @@ static void print_words(FILE *file, const char *label, const char *words)
 static void print_axis(FILE *file, const char *label, bool known, jcal_vec3_t axis, float bound_rad)
 {
     if (!known) {
-        print_words(file, label, "unknown");
+        report_print_words(file, label, "unknown");
         return;
     }
     (void)fprintf(file, "  %-18s %8.4f %8.4f %8.4f   ", label, (double)axis.x, (double)axis.y, (double)axis.z);
@@ -133,73 +133,70 @@ static void print_axis(FILE *file, const char *label, bool known, jcal_vec3_t ax
     }
 }
 
-static void print_pairing(FILE *file, float margin)
-{
-    if (margin > 0.0f) {
-        (void)fprintf(file, "  %-18s the other one explains the data %.3g times worse\n", "sign pairing",
-                      (double)margin);
-    } else {
-        print_words(file, "sign pairing", "unknown");
-    }
-}
-
-static void print_ready_time(FILE *file, const hinge_report_t *report)
+static void print_ready_time(FILE *file, const report_t *report)
 {
     if (report->was_ready) {
         char buffer[32];
         (void)fprintf(file, "  %-18s %s s after the start\n", "first ready",
-                      time_text(report->ready_us - report->start_us, buffer));
+                      time_text(report->ready_us - report->clock.start_us, buffer));
     } else {
-        print_words(file, "first ready", "never");
+        report_print_words(file, "first ready", "never");
     }
 }
 
-static void print_samples(FILE *file, const jcal_hinge_result_t *result)
+static void print_samples(FILE *file, const finding_t *finding)
 {
-    (void)fprintf(file, "  %-18s %" PRIu32 " read, %" PRIu32 " rejected", "samples", result->samples, result->rejected);
+    (void)fprintf(file, "  %-18s %" PRIu32 " read, %" PRIu32 " rejected", "samples", finding->samples,
+                  finding->rejected);
     const char *before = ": ";
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
-        if (result->rejected_by[k] > 0) {
-            (void)fprintf(file, "%s%" PRIu32 " %s", before, result->rejected_by[k], reject_words((jcal_reject_t)k));
+        if (finding->rejected_by[k] > 0) {
+            (void)fprintf(file, "%s%" PRIu32 " %s", before, finding->rejected_by[k], reject_words((jcal_reject_t)k));
             before = ", ";
         }
     }
     (void)fputc('\n', file);
 }
 
-void hinge_print_event(FILE *file, const char *event, const hinge_report_t *report)
+void report_print_event(FILE *file, const char *event, const report_t *report)
 {
-    const jcal_hinge_result_t *result = &report->result;
+    const finding_t *finding = &report->finding;
     char buffer[32];
-    (void)fprintf(file, "%10s s  %-8s %-10s", report->has_time ? time_text(report->t_us, buffer) : "?", event,
-                  jcal_calibration_string(result->status));
-    if (result->has_axes && result->uncertainty1_rad < BOUND_UNKNOWN_RAD &&
-        result->uncertainty2_rad < BOUND_UNKNOWN_RAD) {
-        (void)fprintf(file, "  axes to within %.1f and %.1f deg", degrees(result->uncertainty1_rad),
-                      degrees(result->uncertainty2_rad));
+    (void)fprintf(file, "%10s s  %-8s %-10s", report->clock.has_time ? time_text(report->clock.t_us, buffer) : "?",
+                  event, jcal_calibration_string(finding->status));
+    if (finding->has_axes && finding->uncertainty1_rad < BOUND_UNKNOWN_RAD &&
+        finding->uncertainty2_rad < BOUND_UNKNOWN_RAD) {
+        (void)fprintf(file, "  axes to within %.1f and %.1f deg", degrees(finding->uncertainty1_rad),
+                      degrees(finding->uncertainty2_rad));
     }
-    const char *reason = reason_words(result->reason);
+    const char *reason = reason_words(report);
     (void)fprintf(file, "%s%s\n", (reason != NULL) ? "  " : "", (reason != NULL) ? reason : "");
 }
 
-void hinge_print_summary(FILE *file, const hinge_report_t *report)
+void report_print_head(FILE *file, const report_t *report)
 {
-    const jcal_hinge_result_t *result = &report->result;
-    (void)fprintf(file, "Hinge, %s engine: %s\n", jcal_engine_string(result->engine), status_words(result->status));
-    print_words(file, "why", reason_words(result->reason));
-    print_axis(file, "axis in sensor 1", result->has_axes, result->axis1, result->uncertainty1_rad);
-    print_axis(file, "axis in sensor 2", result->has_axes, result->axis2, result->uncertainty2_rad);
-    print_pairing(file, result->sign_margin);
-    (void)fprintf(file, "  %-18s both axes to within %.3g deg (95 %% confidence)\n", "asked for",
+    const finding_t *finding = &report->finding;
+    (void)fprintf(file, "%s, %s engine: %s\n", report->words->name, jcal_engine_string(finding->engine),
+                  status_words(finding->status));
+    report_print_words(file, "why", reason_words(report));
+    print_axis(file, "axis in sensor 1", finding->has_axes, finding->axis1, finding->uncertainty1_rad);
+    print_axis(file, "axis in sensor 2", finding->has_axes, finding->axis2, finding->uncertainty2_rad);
+}
+
+void report_print_state(FILE *file, const report_t *report)
+{
+    const finding_t *finding = &report->finding;
+    (void)fprintf(file, "  %-18s %s to within %.3g deg (95 %% confidence)\n", "asked for", report->words->asked_for,
                   degrees(report->max_bound_rad));
-    print_words(file, "weakest", weak_words(result->weak));
-    print_words(file, "what would help", hint_words(result->hint));
+    report_print_words(file, "weakest", weak_words(finding->weak));
+    report_print_words(file, "what would help", hint_words(report));
     print_ready_time(file, report);
-    print_samples(file, result);
-    if (result->engine == JCAL_ENGINE_WINDOW) {
-        print_words(file, "paper's test", result->paper_accepted ? "accepted" : "not accepted");
-    }
-    const bool ready = result->status == JCAL_READY;
+    print_samples(file, finding);
+}
+
+void report_print_exit(FILE *file, const report_t *report)
+{
+    const bool ready = report->finding.status == JCAL_READY;
     (void)fprintf(file, "  %-18s %d: read to the end, %s\n", "exit status", (int)(ready ? EXIT_READY : EXIT_NOT_READY),
                   ready ? "ready" : "not ready");
 }
