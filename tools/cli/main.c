@@ -5,6 +5,7 @@
 #include "jointcal/jointcal.h"
 #include "message.h"
 #include "stream_command.h"
+#include "two_dof_command.h"
 
 #include <argp.h>
 #include <signal.h>
@@ -20,10 +21,12 @@ typedef struct {
 static char angles_name[] = "jointcal angles";
 static char hinge_name[] = "jointcal hinge";
 static char stream_name[] = "jointcal stream";
+static char two_dof_name[] = "jointcal two-dof";
 
 static const command_t COMMANDS[] = {{"angles", angles_command, angles_name},
                                      {"hinge", hinge_command, hinge_name},
-                                     {"stream", stream_command, stream_name}};
+                                     {"stream", stream_command, stream_name},
+                                     {"two-dof", two_dof_command, two_dof_name}};
 
 #define COMMAND_COUNT (sizeof COMMANDS / sizeof COMMANDS[0])
 
@@ -57,13 +60,13 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         choice->command = find_command(argument);
         choice->index = state->next - 1;
         if (choice->command == NULL) {
-            argp_error(state, "no subcommand '%s'; there is: angles, hinge, stream", argument);
+            argp_error(state, "no subcommand '%s'; there is: angles, hinge, stream, two-dof", argument);
         }
         state->next = state->argc;
         return 0;
     }
     if (key == ARGP_KEY_NO_ARGS) {
-        argp_error(state, "which subcommand? There is: angles, hinge, stream");
+        argp_error(state, "which subcommand? There is: angles, hinge, stream, two-dof");
     }
     return ARGP_ERR_UNKNOWN;
 }
@@ -71,12 +74,14 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 static const struct argp PARSER = {
     .parser = parse,
     .args_doc =
-        "angles RECORDING.csv --joint KIND [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]",
+        "angles RECORDING.csv --joint KIND [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]\n"
+        "two-dof RECORDING.csv [OPTION...]",
     .doc = "Finds out how the IMUs of a recording sit on the two sides of a joint.\v"
            "Subcommands:\n"
            "  angles   the angles of a joint, from these axes\n"
            "  hinge    both axes of a joint with one axis, like a knee or a finger joint\n"
            "  stream   plays a recording to a hub and writes what the hub finds\n"
+           "  two-dof  both axes of a joint with two axes, like elbow and forearm, and the heading offset\n"
            "\n"
            "'jointcal hinge --help' and so on tell all about them.",
 };
