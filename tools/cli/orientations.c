@@ -12,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Longest time without a sample that is filled, and the period of a recording that shows none. */
-#define BRIDGE_US 500000
+/* Longest time from sample to sample that is filled, and the period of a recording that shows none. */
+#define BRIDGE_US 150000
 #define USUAL_PERIOD_US 10000
 
 #ifdef JOINTCAL_HAS_VQF
