@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Write the bundled demo recording tools/demo/hinge_demo.csv and its truth, hinge_demo.json.
+"""Write the bundled demo recordings tools/demo/{hinge,two_dof}_demo.csv and their truths, .json.
 
-    python3 tools/make_demo.py            write both
+    python3 tools/make_demo.py            write all
     python3 tools/make_demo.py --check    exit 1 if the files in the repository differ
 
-Rest, then motion with a stiff joint (nothing to learn about the axis), then
-informative motion: 30 s at 50 Hz with realistic disturbances.
+Hinge: rest, then motion with a stiff joint (nothing to learn about the axis),
+then informative motion: 30 s at 50 Hz with realistic disturbances.
+Two axes: rest, motion about one axis only, then about both: 40 s at 50 Hz.
+Gyroscope bias lets the heading of orientations computed from it drift.
 """
 
 import argparse
@@ -19,11 +21,13 @@ sys.path.insert(0, str(TOOLS / "python"))
 
 from jointcal_tools.recordings import write_csv  # noqa: E402
 from jointcal_tools.simulate import HingeSpec, simulate_hinge  # noqa: E402
+from jointcal_tools.simulate_two_dof import TwoDofSpec, simulate_two_dof  # noqa: E402
 
 DEMO = TOOLS / "demo"
-CSV, TRUTH = "hinge_demo.csv", "hinge_demo.json"
-SPEC = HingeSpec(motions=(("rest", 4.0), ("stiff", 4.0), ("7", 10.0), ("6", 9.0)),  # and 3 s of transitions
-                 rate_hz=50.0, seed=2020, acc_bias=0.1, gyr_bias_deg_s=0.3, soft_tissue_deg=0.5)
+HINGE = HingeSpec(motions=(("rest", 4.0), ("stiff", 4.0), ("7", 10.0), ("6", 9.0)),  # and 3 s of transitions
+                  rate_hz=50.0, seed=2020, acc_bias=0.1, gyr_bias_deg_s=0.3, soft_tissue_deg=0.5)
+TWO_DOF = TwoDofSpec(motions=(("rest", 4.0), ("hinge", 6.0), ("free", 28.0)),
+                     rate_hz=50.0, seed=2022, carrying_deg=8.0, acc_bias=0.1, gyr_bias_deg_s=0.1, soft_tissue_deg=0.3)
 DIGITS = 7  # few enough that no platform's last bit shows
 
 
@@ -40,10 +44,12 @@ def rounded(value):
 
 def write_demo(folder: Path) -> None:
     folder.mkdir(exist_ok=True)
-    rec = simulate_hinge(SPEC)
-    write_csv(folder / CSV, rec, digits=DIGITS)
-    truth = {**rec.truth(), "source": "simulated (tools/make_demo.py)"}
-    (folder / TRUTH).write_text(json.dumps(rounded(truth), indent=1) + "\n", newline="\n")
+    for name, rec in (("hinge_demo", simulate_hinge(HINGE)), ("two_dof_demo", simulate_two_dof(TWO_DOF))):
+        write_csv(folder / f"{name}.csv", rec, digits=DIGITS)
+        # The heading offset of computed orientations is not that of the simulated ones, which no file holds.
+        truth = {**rec.truth(), "source": "simulated (tools/make_demo.py)"}
+        truth.pop("heading_offset_deg", None)
+        (folder / f"{name}.json").write_text(json.dumps(rounded(truth), indent=1) + "\n", newline="\n")
 
 
 def main() -> int:
@@ -54,7 +60,8 @@ def main() -> int:
         return 0
     with tempfile.TemporaryDirectory() as folder:
         write_demo(Path(folder))
-        different = [name for name in (CSV, TRUTH)
+        names = sorted(path.name for path in Path(folder).iterdir())
+        different = [name for name in names
                      if not (DEMO / name).is_file() or (DEMO / name).read_bytes() != (Path(folder) / name).read_bytes()]
     for name in different:
         print(f"tools/demo/{name} differs from what tools/make_demo.py writes", file=sys.stderr)
