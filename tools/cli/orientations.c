@@ -34,7 +34,7 @@ static int compare(const void *a, const void *b)
 /* Median of the time steps that lead forward. */
 static int64_t usual_step_us(const recording_row_t *rows, size_t count)
 {
-    int64_t steps[ORIENTATIONS_WAIT];
+    int64_t steps[ORIENTATIONS_WAIT] = {USUAL_PERIOD_US}; /* stays where nothing leads forward */
     size_t n = 0;
     for (size_t k = 1; k < count; k++) {
         if (rows[k].has_time && rows[k - 1].has_time && rows[k].t_us > rows[k - 1].t_us) {
@@ -42,7 +42,7 @@ static int64_t usual_step_us(const recording_row_t *rows, size_t count)
         }
     }
     qsort(steps, n, sizeof steps[0], compare);
-    return (n > 0) ? steps[n / 2] : USUAL_PERIOD_US;
+    return steps[n / 2];
 }
 
 static bool start_filters(orientations_t *self)

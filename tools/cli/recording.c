@@ -148,21 +148,26 @@ recording_event_t recording_open(recording_t *recording, csv_read_t *read, void 
     return read_header(recording);
 }
 
-/* Names the columns of one sensor's orientation that are missing, at the first one that is there. */
+static bool found_orientation(const recording_t *recording, size_t column)
+{
+    return (recording->found_orientations >> (column - RECORDING_COLUMNS) & 1u) != 0u;
+}
+
+/* Names the columns of one sensor's orientation that are missing, at the leftmost one that is there. */
 static recording_event_t part_missing(recording_t *recording, size_t first)
 {
     char names[64] = "";
     size_t length = 0;
-    const csv_cell_t *there = NULL;
+    size_t leftmost = recording->header_cells;
     for (size_t k = first; k < first + 4; k++) {
-        if ((recording->found_orientations >> (k - RECORDING_COLUMNS) & 1u) != 0u) {
-            const csv_cell_t *cell = &recording->csv.cells[recording->index[k]];
-            there = (there == NULL || cell->column < there->column) ? cell : there;
-        } else {
+        if (!found_orientation(recording, k)) {
             length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", (length == 0) ? "" : ", ",
                                        COLUMN_NAMES[k]);
+        } else if (recording->index[k] < leftmost) {
+            leftmost = recording->index[k];
         }
     }
+    const csv_cell_t *there = &recording->csv.cells[leftmost];
     return bad(recording, there->line, there->column, "%s without %s: an orientation has four columns", there->text,
                names);
 }
