@@ -19,6 +19,7 @@
 #include "jointcal/quat.h"
 #include "jointcal/status.h"
 #include "jointcal/two_dof.h"
+#include "jointcal/two_dof_window.h"
 #include "jointcal/types.h"
 #include "jointcal/vec3.h"
 

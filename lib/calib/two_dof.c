@@ -7,13 +7,14 @@
 #include "calib/two_dof_residual.h"
 #include "calib/two_dof_search.h"
 #include "calib/two_dof_stream.h"
+#include "calib/two_dof_verdict.h"
 #include "calib/watch.h"
 #include "jointcal/quat.h"
 #include "math/angle.h"
 #include "math/scalar.h"
+#include "sample/rate.h"
 
 #include <float.h>
-#include <math.h>
 #include <stddef.h>
 #include <string.h>
 
@@ -86,20 +87,12 @@ void jcal_two_dof_begin_anew(jcal_two_dof_t *self, jcal_calibration_t status)
     (void)memset(&self->prior, 0, sizeof self->prior);
     (void)memset(&self->best, 0, sizeof self->best);
     (void)memset(&self->search, 0, sizeof self->search);
-    (void)memset(&self->verdict, 0, sizeof self->verdict);
     self->age_s = 0.0f;
     self->moving_s = 0.0f;
     self->since_forgot_s = 0.0f;
     self->has_best = false;
     (void)memset(&self->watch, 0, sizeof self->watch);
-    self->verdict.status = (uint8_t)status;
-    self->verdict.bound1_rad = JCAL_HALF_PI;
-    self->verdict.bound2_rad = JCAL_HALF_PI;
-    self->verdict.bound_heading_rad = JCAL_HALF_PI;
-    self->verdict.excess = 1.0f;
-    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
-    self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
-    self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+    jcal_two_dof_verdict_begin(&self->verdict, status);
 }
 
 jcal_status_t jcal_two_dof_init(jcal_two_dof_t *self, const jcal_two_dof_config_t *config)
@@ -154,18 +147,6 @@ static const jcal_orientation_pair_t *kept(const jcal_two_dof_t *self, uint32_t 
     return &self->ring[(self->taken - 1u - back) % JCAL_TWO_DOF_RING];
 }
 
-/// Mean rate in the earth frame between two orientations, rad/s: (A41), (A42) of [LAI22], without the arc cosine that loses small
-/// angles.
-static jcal_vec3_t rate_between(jcal_quat_t from, jcal_quat_t to, float dt_s)
-{
-    const jcal_quat_t turn = jcal_quat_mul(to, jcal_quat_conj(from));
-    const float sign = (turn.w < 0.0f) ? -1.0f : 1.0f;
-    const jcal_vec3_t v = jcal_vec3(sign * turn.x, sign * turn.y, sign * turn.z);
-    const float sine = jcal_vec3_norm(v);
-    const float per_sine = (sine > 1e-4f) ? (2.0f * jcal_atan2(sine, sign * turn.w) / sine) : 2.0f;
-    return jcal_vec3_scale(v, per_sine / dt_s);
-}
-
 /// The sample in the middle of the last three kept; false if there is none. `dt_s` is the time it stands for.
 static bool middle(const jcal_two_dof_t *self, jcal_two_dof_sample_t *sample, float *dt_s)
 {
@@ -183,8 +164,8 @@ static bool middle(const jcal_two_dof_t *self, jcal_two_dof_sample_t *sample, fl
     *dt_s = 0.5f * (to_s + on_s);
     sample->q1 = at->q1;
     sample->q2 = at->q2;
-    sample->w1 = rate_between(before->q1, after->q1, to_s + on_s);
-    sample->w2 = rate_between(before->q2, after->q2, to_s + on_s);
+    sample->w1 = jcal_rate_between(before->q1, after->q1, to_s + on_s);
+    sample->w2 = jcal_rate_between(before->q2, after->q2, to_s + on_s);
     return true;
 }
 
@@ -320,58 +301,14 @@ jcal_status_t jcal_two_dof_update(jcal_two_dof_t *self, const jcal_orientation_p
     return status;
 }
 
-static float progress(float bound_rad, float max_bound_rad)
-{
-    return (bound_rad > 0.0f) ? jcal_min(max_bound_rad / bound_rad, 1.0f) : 1.0f;
-}
-
-static float largest_component(jcal_vec3_t v)
-{
-    const float xy = (fabsf(v.x) >= fabsf(v.y)) ? v.x : v.y;
-    return (fabsf(xy) >= fabsf(v.z)) ? xy : v.z;
-}
-
-static void put_estimate(const jcal_two_dof_t *self, jcal_two_dof_result_t *out)
-{
-    const jcal_two_dof_point_t *const point = &self->best.point;
-    const float sign1 = (largest_component(point->j1) < 0.0f) ? -1.0f : 1.0f;
-    const float sign2 = (largest_component(point->j2) < 0.0f) ? -1.0f : 1.0f;
-    out->axis1 = jcal_vec3_scale(point->j1, sign1);
-    out->axis2 = jcal_vec3_scale(point->j2, sign2);
-    out->heading_offset_rad = jcal_atan2(point->heading.im, point->heading.re);
-    out->carrying_angle_rad =
-        sign1 * sign2 *
-        jcal_atan2(self->verdict.sine, sqrtf(jcal_max(1.0f - (self->verdict.sine * self->verdict.sine), 0.0f)));
-}
-
 jcal_status_t jcal_two_dof_get(const jcal_two_dof_t *self, jcal_two_dof_result_t *out)
 {
     if ((self == NULL) || (out == NULL)) {
         return JCAL_ERR_ARG;
     }
-    const jcal_two_dof_verdict_t *const verdict = &self->verdict;
-    const float limit = self->cfg.max_bound_rad;
-    *out = (jcal_two_dof_result_t){0};
+    jcal_two_dof_report(&self->verdict, &self->cfg, self->has_best ? &self->best.point : NULL, out);
+    jcal_two_dof_report_gate(&self->gate, out);
     out->engine = JCAL_ENGINE_STREAM;
-    out->status = (jcal_calibration_t)verdict->status;
-    out->weak = (jcal_weak_t)verdict->weak;
-    out->hint = (jcal_hint_t)verdict->hint;
-    out->reason = (jcal_reason_t)verdict->reason;
-    out->has_axes = self->has_best;
-    out->uncertainty1_rad = verdict->bound1_rad;
-    out->uncertainty2_rad = verdict->bound2_rad;
-    out->uncertainty_heading_rad = verdict->bound_heading_rad;
-    out->progress_axis1 = self->has_best ? progress(verdict->bound1_rad, limit) : 0.0f;
-    out->progress_axis2 = self->has_best ? progress(verdict->bound2_rad, limit) : 0.0f;
-    out->progress_heading = self->has_best ? progress(verdict->bound_heading_rad, limit) : 0.0f;
     out->t_us = self->t_us;
-    out->samples = self->gate.samples;
-    for (size_t i = 0u; i < (size_t)JCAL_REJECT_COUNT; ++i) {
-        out->rejected_by[i] = self->gate.rejected_by[i];
-        out->rejected += out->rejected_by[i];
-    }
-    if (self->has_best) {
-        put_estimate(self, out);
-    }
     return JCAL_OK;
 }

@@ -5,46 +5,14 @@
 
 #include "calib/two_dof_model.h"
 #include "calib/two_dof_prior.h"
-#include "calib/two_dof_residual.h"
 #include "calib/two_dof_stream.h"
+#include "calib/two_dof_verdict.h"
 #include "calib/watch.h"
 #include "math/angle.h"
-#include "math/chol.h"
 #include "math/scalar.h"
+#include "math/sym.h"
 
-#include <math.h>
-
-/// Bound of something of which nothing is known: a right angle; the heading may be turned by half a turn.
-#define UNKNOWN_RAD JCAL_HALF_PI
-
-/// 95 % of a Gaussian: squares of 1.96, and what the smaller of two equal variances adds up to 2.45^2.
-#define SQUARE_1D 3.84f
-#define SQUARE_2ND 2.15f
-
-/// Residuals may be this many times what is usual, squared, before no joint of this kind explains the data.
-#define MISFIT_MAX 20.0f
-/// Largest |sin(beta0)|, 60 deg: axes that are more alike have no common normal to speak of, and parallel ones explain a hinge.
-#define SINE_MAX 0.866f
-/// The other minimum must cost this much more, in units of the variance, and this many times as much: when the angles move one
-/// after the other, both orders of the axes explain that about equally well, and the errors decide which is the better one.
-#define RIVAL_GAP 150.0f
-#define RIVAL_RATIO 5.0f
-/// Probes that must have ended, how many of them from the exchanged axes, each at another pose, and judgements in a row that found nothing missing.
-#define TRIED_MIN 8u
-#define EXCHANGES_MIN 2u
-#define AGREED_MIN 3u
-/// Least motion, s.
-#define MOVING_MIN_S 2.0f
-/// A bound may grow by this before ready is lost.
-#define HYSTERESIS 1.2f
-/// Share of bad samples.
-#define BAD_SHARE_MAX 0.2f
-
-/// Residuals, squared, are never taken for less than this share of what the config calls usual.
-#define EXCESS_MIN 0.35f
-
-/// An inclined earth frame turns the heading more than it turns an axis.
-#define HEADING_MISMATCH 1.5f
+#include <stddef.h>
 
 /// What fades once the status is `ready`, and how often: per step of time, share of the memory.
 #define FADE_KEEP 0.75f
@@ -61,114 +29,6 @@
 /// Time over which the drift of the heading offset is averaged, s, and the largest that is believed, times what the config says.
 #define DRIFT_TIME_S 20.0f
 #define DRIFT_MAX 2.0f
-
-typedef struct {
-    float axis1, axis2, heading;
-} bounds_t;
-
-/// Residuals, squared, over what the config takes for usual, of either part. 2.5 unknowns are taken from each.
-static void ratios_of(const jcal_two_dof_t *self, float *ratios)
-{
-    const float n1 = jcal_max((self->moving_s / JCAL_TWO_DOF_RATE_TIME_S) - 2.5f, 1.0f);
-    const float n2 = jcal_max((self->moving_s / JCAL_TWO_DOF_ANGLE_TIME_S) - 2.5f, 1.0f);
-    ratios[0] = (self->cfg.constraint == JCAL_CONSTRAINT_ORIENTATION) ? 0.0f : (self->search.parts[0] / n1);
-    ratios[1] = (self->cfg.constraint == JCAL_CONSTRAINT_ROTATION) ? 0.0f : (self->search.parts[1] / n2);
-}
-
-/* 95 % radius of a Gaussian in the plane with covariance (a b; b c). */
-static float radius(float a, float b, float c)
-{
-    const float mean = 0.5f * (a + c);
-    const float half = 0.5f * (a - c);
-    const float apart = sqrtf((half * half) + (b * b));
-    const float small = jcal_max(mean - apart, 0.0f);
-    return sqrtf((SQUARE_1D * (mean + apart)) + (SQUARE_2ND * small));
-}
-
-static bounds_t bounds_of(const jcal_two_dof_t *self)
-{
-    bounds_t bounds = {UNKNOWN_RAD, UNKNOWN_RAD, UNKNOWN_RAD};
-    jcal_two_dof_lin_t all;
-    jcal_two_dof_prior_apply(&self->prior, &self->best.point, &self->search.lin, &all);
-    float scale[JCAL_TWO_DOF_UNKNOWNS];
-    float inverse[JCAL_SYM_SIZE(JCAL_TWO_DOF_UNKNOWNS)];
-    jcal_chol_scale(all.matrix, JCAL_TWO_DOF_UNKNOWNS, scale);
-    if (jcal_chol_factor_in_place(all.matrix, JCAL_TWO_DOF_UNKNOWNS, NULL) != JCAL_OK) {
-        return bounds;
-    }
-    jcal_chol_inverse(all.matrix, JCAL_TWO_DOF_UNKNOWNS, inverse);
-    for (unsigned i = 0u; i < JCAL_TWO_DOF_UNKNOWNS; ++i) {
-        for (unsigned k = 0u; k <= i; ++k) {
-            inverse[jcal_sym_at(i, k)] *= scale[i] * scale[k];
-        }
-    }
-    const float mismatch = self->cfg.mismatch_rad;
-    const float drift = self->cfg.heading_drift_rad_s * self->age_s;
-    bounds.axis1 = jcal_min(radius(inverse[0], inverse[1], inverse[2]) + mismatch, UNKNOWN_RAD);
-    bounds.axis2 = jcal_min(
-        radius(inverse[jcal_sym_at(2u, 2u)], inverse[jcal_sym_at(3u, 2u)], inverse[jcal_sym_at(3u, 3u)]) + mismatch,
-        UNKNOWN_RAD);
-    const float spread = sqrtf(SQUARE_1D * jcal_max(inverse[jcal_sym_at(4u, 4u)], 0.0f));
-    bounds.heading = jcal_min(spread + (HEADING_MISMATCH * mismatch) + drift, UNKNOWN_RAD);
-    return bounds;
-}
-
-static void say(jcal_two_dof_verdict_t *verdict, jcal_weak_t weak, jcal_hint_t hint, jcal_reason_t reason)
-{
-    verdict->weak = (uint8_t)weak;
-    verdict->hint = (uint8_t)hint;
-    verdict->reason = (uint8_t)reason;
-}
-
-/// The unknown with the largest bound, if that is too large.
-static jcal_weak_t weakest(const bounds_t *bounds, float limit)
-{
-    const float largest = jcal_max(jcal_max(bounds->axis1, bounds->axis2), bounds->heading);
-    if (largest <= limit) {
-        return JCAL_WEAK_NONE;
-    }
-    if (bounds->axis1 >= largest) {
-        return JCAL_WEAK_AXIS1;
-    }
-    return (bounds->axis2 >= largest) ? JCAL_WEAK_AXIS2 : JCAL_WEAK_HEADING;
-}
-
-/// What is missing; JCAL_COLLECTING with reason NONE stands for nothing.
-static jcal_calibration_t missing(jcal_two_dof_t *self, const bounds_t *bounds, float misfit, float sine)
-{
-    jcal_two_dof_verdict_t *const verdict = &self->verdict;
-    const jcal_two_dof_search_t *const search = &self->search;
-    const bool was_ready = verdict->status == (uint8_t)JCAL_READY;
-    const float limit = self->cfg.max_bound_rad * (was_ready ? HYSTERESIS : 1.0f);
-    const jcal_weak_t weak = weakest(bounds, limit);
-    if (self->gate.bad_share > BAD_SHARE_MAX) {
-        say(verdict, weak, JCAL_HINT_CHECK_SENSORS, JCAL_REASON_BAD_SAMPLES);
-        return JCAL_COLLECTING;
-    }
-    if (!was_ready && (self->moving_s < MOVING_MIN_S)) { /* `moved` stays until there is something new to say */
-        say(verdict, weak, JCAL_HINT_MOVE_JOINT, JCAL_REASON_NO_MOTION);
-        return (verdict->status == (uint8_t)JCAL_MOVED) ? JCAL_MOVED : JCAL_COLLECTING;
-    }
-    if ((misfit > MISFIT_MAX) || (fabsf(sine) > SINE_MAX)) {
-        say(verdict, weak, JCAL_HINT_CHECK_SENSORS, JCAL_REASON_DOES_NOT_FIT);
-        return JCAL_COLLECTING;
-    }
-    if (weak != JCAL_WEAK_NONE) {
-        say(verdict, weak, (weak == JCAL_WEAK_HEADING) ? JCAL_HINT_MOVE_SEGMENT1 : JCAL_HINT_MOVE_JOINT,
-            JCAL_REASON_UNCERTAIN);
-        return JCAL_COLLECTING;
-    }
-    if (search->has_rival && (search->rival_cost < jcal_max(search->cost + RIVAL_GAP, RIVAL_RATIO * search->cost))) {
-        say(verdict, JCAL_WEAK_NONE, JCAL_HINT_MOVE_JOINT, JCAL_REASON_OTHER_MINIMUM);
-        return JCAL_AMBIGUOUS;
-    }
-    if ((search->tried < TRIED_MIN) || (search->exchanges < EXCHANGES_MIN)) {
-        say(verdict, JCAL_WEAK_NONE, JCAL_HINT_MOVE_JOINT, JCAL_REASON_UNCERTAIN);
-        return JCAL_COLLECTING;
-    }
-    say(verdict, JCAL_WEAK_NONE, JCAL_HINT_NONE, JCAL_REASON_NONE);
-    return JCAL_READY;
-}
 
 /// Follows the drift of the heading offset, and refers the sums to where it is by now.
 static void follow_drift(jcal_two_dof_t *self, float time_s)
@@ -215,32 +75,33 @@ void jcal_two_dof_follow_drift(jcal_two_dof_t *self)
     }
 }
 
+/// Covariance (5 x 5, packed) from the sums and the prior; false if there is none.
+static bool covariance_of(const jcal_two_dof_t *self, float *inverse)
+{
+    jcal_two_dof_lin_t all;
+    jcal_two_dof_prior_apply(&self->prior, &self->best.point, &self->search.lin, &all);
+    return jcal_two_dof_covariance(all.matrix, JCAL_TWO_DOF_UNKNOWNS, inverse);
+}
+
 void jcal_two_dof_judge(jcal_two_dof_t *self)
 {
     jcal_two_dof_verdict_t *const verdict = &self->verdict;
-    float ratios[2];
-    ratios_of(self, ratios);
-    const float misfit = jcal_max(ratios[0], ratios[1]);
-    const bounds_t bounds = bounds_of(self);
-    verdict->bound1_rad = bounds.axis1;
-    verdict->bound2_rad = bounds.axis2;
-    verdict->bound_heading_rad = bounds.heading;
-    const float sine = jcal_two_dof_mean(&self->moments, &self->best.point);
-    verdict->sine = sine;
-    const jcal_calibration_t found = missing(self, &bounds, misfit, sine);
-    if (found != JCAL_READY) {
-        self->search.agreed = 0u;
-        verdict->status = (uint8_t)found;
-    } else if (verdict->status != (uint8_t)JCAL_READY) {
-        self->search.agreed = (uint8_t)(self->search.agreed + 1u);
-        if (self->search.agreed >= AGREED_MIN) {
-            verdict->status = (uint8_t)JCAL_READY;
-        } else {
-            say(verdict, JCAL_WEAK_NONE, JCAL_HINT_MOVE_JOINT, JCAL_REASON_UNCERTAIN);
-        }
-    } else {
-        /* ready, and stays so */
-    }
+    const jcal_two_dof_search_t *const search = &self->search;
+    float inverse[JCAL_SYM_SIZE(JCAL_TWO_DOF_UNKNOWNS)];
+    const jcal_two_dof_evidence_t evidence = {
+        .covariance = covariance_of(self, inverse) ? inverse : NULL,
+        .parts = {search->parts[0], search->parts[1]},
+        .moving_s = self->moving_s,
+        .age_s = self->age_s,
+        .sine = jcal_two_dof_mean(&self->moments, &self->best.point),
+        .bad_share = self->gate.bad_share,
+        .cost = search->cost,
+        .rival_cost = search->rival_cost,
+        .has_rival = search->has_rival,
+        .tried = search->tried,
+        .exchanges = search->exchanges,
+    };
+    jcal_two_dof_conclude(verdict, &self->cfg, &evidence, &self->search.agreed);
     if (verdict->reason != (uint8_t)JCAL_REASON_DOES_NOT_FIT) {
         self->search.misfits = 0u;
     } else if (self->watch.on) {
@@ -255,5 +116,4 @@ void jcal_two_dof_judge(jcal_two_dof_t *self)
     if (verdict->status == (uint8_t)JCAL_READY) {
         jcal_watch_start(&self->watch);
     }
-    verdict->excess = jcal_max(misfit, EXCESS_MIN);
 }

@@ -6,20 +6,10 @@
 #include "calib/two_dof_judge.h"
 #include "calib/two_dof_model.h"
 #include "calib/two_dof_prior.h"
+#include "calib/two_dof_starts.h"
 #include "calib/two_dof_stream.h"
-#include "jointcal/quat.h"
 #include "math/scalar.h"
 #include "math/solve.h"
-
-#include <math.h>
-
-/// Lines that starts are made of: the axes of the sensor frame and the diagonals of its cube, each for either sensor.
-#define LINES 7u
-#define STARTS (LINES * LINES)
-/// Order of the starts: neighbours in time differ in both lines. No common factor with STARTS.
-#define START_STRIDE 17u
-/// Headings that a start chooses from.
-#define HEADINGS 8u
 
 /// So many starts are tried before the exchanged axes are once more.
 #define EXCHANGE_EVERY 1u
@@ -37,48 +27,11 @@
 /// A step that makes the cost larger by less than this share of it stands: samples that came in meanwhile did it.
 #define HARMLESS_SHARE 0.02f
 
-/// Minima closer than this are one, cos 5 deg; a probe that has come as close as this to the estimate has joined it, cos 2 deg.
-#define SAME_COSINE 0.9962f
-#define JOINED_COSINE 0.9994f
-
 /// A new minimum must be better than the estimate by this much, in units of the cost's standard deviation.
 #define BETTER 1.0f
 
 /// Turns of the cycle.
 enum { TURN_TRACK = 0, TURN_JUDGE = 1, TURN_FADE = 2, TURN_DRIFT = 3, TURN_RIVAL = 4, TURN_PROBE = 5, TURNS = 9 };
-
-static jcal_vec3_t line_of(unsigned which)
-{
-    const float s = 0.57735027f;
-    switch (which) {
-    case 0u:
-        return jcal_vec3(1.0f, 0.0f, 0.0f);
-    case 1u:
-        return jcal_vec3(0.0f, 1.0f, 0.0f);
-    case 2u:
-        return jcal_vec3(0.0f, 0.0f, 1.0f);
-    case 3u:
-        return jcal_vec3(s, s, s);
-    case 4u:
-        return jcal_vec3(-s, s, s);
-    case 5u:
-        return jcal_vec3(s, -s, s);
-    default:
-        return jcal_vec3(s, s, -s);
-    }
-}
-
-static jcal_vec3_t turned_about_z(jcal_vec3_t v, jcal_plane_t turn)
-{
-    return jcal_vec3((turn.re * v.x) - (turn.im * v.y), (turn.im * v.x) + (turn.re * v.y), v.z);
-}
-
-static bool within(const jcal_two_dof_point_t *a, const jcal_two_dof_point_t *b, float cosine)
-{
-    const float heading = (a->heading.re * b->heading.re) + (a->heading.im * b->heading.im);
-    return (fabsf(jcal_vec3_dot(a->j1, b->j1)) > cosine) && (fabsf(jcal_vec3_dot(a->j2, b->j2)) > cosine) &&
-           (heading > cosine);
-}
 
 /// First half of a linearisation: the rotation-based form.
 static void first_half(jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
@@ -167,57 +120,27 @@ static float cost_at(const jcal_two_dof_t *self, const jcal_two_dof_point_t *poi
     return (cost / self->verdict.excess) + jcal_two_dof_prior_cost(&self->prior, point);
 }
 
-/// The estimate with the order of its axes exchanged, as the segments stand now: j1' = R1' D R2 j2, j2' = R2' D' R1 j1.
-///
-/// While one angle of the joint rests the other axis might as well be fixed to the other segment: the same motion, explained the
-/// other way round. Starts all over the sphere find that minimum late.
-static jcal_two_dof_point_t exchanged(const jcal_two_dof_t *self)
-{
-    const jcal_orientation_pair_t *const pair = &self->ring[(self->taken - 1u) % JCAL_TWO_DOF_RING];
-    const jcal_two_dof_point_t *const best = &self->best.point;
-    const jcal_vec3_t in1 = jcal_quat_rotate(pair->q1, best->j1);
-    const jcal_vec3_t in2 = jcal_quat_rotate(pair->q2, best->j2);
-    const jcal_plane_t back = {best->heading.re, -best->heading.im};
-    const jcal_two_dof_point_t point = {
-        jcal_quat_rotate(jcal_quat_conj(pair->q1), turned_about_z(in2, best->heading)),
-        jcal_quat_rotate(jcal_quat_conj(pair->q2), turned_about_z(in1, back)),
-        best->heading,
-    };
-    return point;
-}
-
 static void begin_probe(jcal_two_dof_t *self)
 {
     jcal_two_dof_search_t *const search = &self->search;
-    static const jcal_plane_t turns[HEADINGS] = {
-        {1.0f, 0.0f},  {0.70710678f, 0.70710678f},   {0.0f, 1.0f},  {-0.70710678f, 0.70710678f},
-        {-1.0f, 0.0f}, {-0.70710678f, -0.70710678f}, {0.0f, -1.0f}, {0.70710678f, -0.70710678f}};
     if (self->has_best && (search->since_exchange >= EXCHANGE_EVERY)) {
         search->since_exchange = 0u;
         search->exchanges = (uint8_t)((search->exchanges < UINT8_MAX) ? (search->exchanges + 1u) : UINT8_MAX);
-        const jcal_two_dof_point_t other = exchanged(self);
+        const jcal_orientation_pair_t *const pair = &self->ring[(self->taken - 1u) % JCAL_TWO_DOF_RING];
+        const jcal_two_dof_point_t other = jcal_two_dof_exchanged(&self->best.point, pair->q1, pair->q2);
         begin(&search->probe, &other);
         search->probing = true;
         return;
     }
     search->since_exchange = (uint8_t)(search->since_exchange + 1u);
-    float costs[HEADINGS];
-    jcal_two_dof_point_t point = {line_of(search->start / LINES), line_of(search->start % LINES), turns[0]};
-    jcal_two_dof_costs(&self->moments, self->cfg.constraint, &point, turns, HEADINGS, costs);
-    unsigned least = 0u;
-    for (unsigned i = 1u; i < HEADINGS; ++i) {
-        least = (costs[i] < costs[least]) ? i : least;
-    }
-    point.heading = turns[least];
+    float costs[JCAL_TWO_DOF_HEADINGS];
+    const jcal_plane_t *const turns = jcal_two_dof_start_headings();
+    jcal_two_dof_point_t point = jcal_two_dof_start(search->start);
+    jcal_two_dof_costs(&self->moments, self->cfg.constraint, &point, turns, JCAL_TWO_DOF_HEADINGS, costs);
+    point.heading = turns[jcal_two_dof_least(costs)];
     begin(&search->probe, &point);
-    search->start = (uint8_t)((search->start + START_STRIDE) % STARTS);
+    search->start = jcal_two_dof_start_after(search->start);
     search->probing = true;
-}
-
-/// The line of `axis` in the sense of `like`.
-static jcal_vec3_t align(jcal_vec3_t axis, jcal_vec3_t like)
-{
-    return (jcal_vec3_dot(axis, like) < 0.0f) ? jcal_vec3_scale(axis, -1.0f) : axis;
 }
 
 /// Makes a point the estimate. If the one before it was ready, the joint is another one now.
@@ -254,11 +177,11 @@ static void file_probe(jcal_two_dof_t *self)
         return;
     }
     const bool better = cost < (search->cost - BETTER);
-    if (within(&self->best.point, point, SAME_COSINE)) {
+    if (jcal_two_dof_is_near(&self->best.point, point, JCAL_TWO_DOF_SAME_COSINE)) {
         if (better) {
             jcal_two_dof_point_t aligned = *point; /* the senses stay: the mean of the sine goes with them */
-            aligned.j1 = align(point->j1, self->best.point.j1);
-            aligned.j2 = align(point->j2, self->best.point.j2);
+            aligned.j1 = jcal_two_dof_in_sense_of(point->j1, self->best.point.j1);
+            aligned.j2 = jcal_two_dof_in_sense_of(point->j2, self->best.point.j2);
             begin(&self->best, &aligned);
         }
     } else if (better) {
@@ -301,7 +224,7 @@ static void probe(jcal_two_dof_t *self)
         const float length = advance(self);
         search->probe.steps = (uint8_t)(search->probe.steps + 1u);
         const bool ended = (length < STEP_MIN_RAD) || (search->probe.steps >= PROBE_STEPS) || is_hopeless(self);
-        if (ended || (self->has_best && within(&self->best.point, point, JOINED_COSINE))) {
+        if (ended || (self->has_best && jcal_two_dof_is_near(&self->best.point, point, JCAL_TWO_DOF_JOINED_COSINE))) {
             file_probe(self);
         }
     }
@@ -358,7 +281,7 @@ void jcal_two_dof_work(jcal_two_dof_t *self)
     case TURN_RIVAL:
         if (search->has_rival) {
             search->rival_cost = cost_at(self, &search->rival);
-            search->has_rival = !within(&self->best.point, &search->rival, SAME_COSINE);
+            search->has_rival = !jcal_two_dof_is_near(&self->best.point, &search->rival, JCAL_TWO_DOF_SAME_COSINE);
         }
         search->turn = TURN_PROBE;
         break;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs the stream engine of the 2-DoF joint, and VQF, over arrays. */
+/* Runs the engines of the 2-DoF joint, and VQF, over arrays. */
 #include "batch_two_dof.h"
 
 #ifdef JCAL_BATCH_HAS_VQF
 #include "jcal_vqf.h"
 #endif
 
+#include <stdlib.h>
 #include <string.h>
 
 void jcal_batch_two_dof_defaults(jcal_batch_two_dof_options_t *options)
@@ -47,22 +48,34 @@ static void write_row(const jcal_two_dof_result_t *r, float row[static JCAL_BATC
     memcpy(row, values, sizeof(values));
 }
 
-int32_t jcal_batch_two_dof_run(const jcal_batch_two_dof_options_t *options, const jcal_batch_orientations_t *in,
-                               float *rows, uint32_t *rejected_by)
+static jcal_orientation_pair_t pair_at(const jcal_batch_orientations_t *in, size_t k)
+{
+    const float *const v = in->values + k * 8;
+    const jcal_orientation_pair_t pair = {in->t_us[k], quaternion_at(v), quaternion_at(v + 4)};
+    return pair;
+}
+
+static jcal_two_dof_config_t config_of(const jcal_batch_two_dof_options_t *options)
 {
     jcal_two_dof_config_t config = jcal_two_dof_config_default();
     config.constraint = (jcal_constraint_t)options->constraint;
     config.max_bound_rad = options->max_bound_rad;
     config.mismatch_rad = options->mismatch_rad;
     config.memory_s = options->memory_s;
+    return config;
+}
+
+int32_t jcal_batch_two_dof_run(const jcal_batch_two_dof_options_t *options, const jcal_batch_orientations_t *in,
+                               float *rows, uint32_t *rejected_by)
+{
+    const jcal_two_dof_config_t config = config_of(options);
     jcal_two_dof_t engine;
     if (jcal_two_dof_init(&engine, &config) != JCAL_OK) {
         return JCAL_BATCH_CONFIG;
     }
     jcal_two_dof_result_t result;
     for (size_t k = 0; k < in->count; k++) {
-        const float *const v = in->values + k * 8;
-        const jcal_orientation_pair_t pair = {in->t_us[k], quaternion_at(v), quaternion_at(v + 4)};
+        const jcal_orientation_pair_t pair = pair_at(in, k);
         (void)jcal_two_dof_update(&engine, &pair);
         (void)jcal_two_dof_get(&engine, &result);
         write_row(&result, rows + k * JCAL_BATCH_TWO_DOF_COLUMNS);
@@ -70,6 +83,41 @@ int32_t jcal_batch_two_dof_run(const jcal_batch_two_dof_options_t *options, cons
     (void)jcal_two_dof_get(&engine, &result);
     memcpy(rejected_by, result.rejected_by, sizeof(result.rejected_by));
     return JCAL_BATCH_DONE;
+}
+
+static void run_window(jcal_two_dof_window_t *engine, const jcal_batch_orientations_t *in,
+                       jcal_batch_two_dof_window_out_t *out)
+{
+    jcal_two_dof_result_t result;
+    for (size_t k = 0; k < in->count; k++) {
+        const jcal_orientation_pair_t pair = pair_at(in, k);
+        (void)jcal_two_dof_window_update(engine, &pair);
+        (void)jcal_two_dof_window_get(engine, &result);
+        write_row(&result, out->rows + k * JCAL_BATCH_TWO_DOF_COLUMNS);
+    }
+    (void)jcal_two_dof_window_get(engine, &result);
+    memcpy(out->rejected_by, result.rejected_by, sizeof(result.rejected_by));
+    size_t kept = engine->cfg.n_max;
+    (void)jcal_two_dof_window_kept(engine, out->kept_us, &kept);
+    out->kept_count = kept;
+}
+
+int32_t jcal_batch_two_dof_window_run(const jcal_batch_two_dof_options_t *options, uint32_t n_max,
+                                      const jcal_batch_orientations_t *in, jcal_batch_two_dof_window_out_t *out)
+{
+    const jcal_two_dof_window_config_t config = {config_of(options), (uint16_t)n_max};
+    if (n_max > UINT16_MAX || jcal_two_dof_window_config_check(&config) != NULL) {
+        return JCAL_BATCH_CONFIG;
+    }
+    const size_t bytes = jcal_two_dof_window_storage_bytes(&config);
+    void *const storage = malloc(bytes);
+    jcal_two_dof_window_t engine;
+    const bool ready = storage != NULL && jcal_two_dof_window_init(&engine, &config, storage, bytes) == JCAL_OK;
+    if (ready) {
+        run_window(&engine, in, out);
+    }
+    free(storage);
+    return ready ? JCAL_BATCH_DONE : JCAL_BATCH_CONFIG;
 }
 
 int32_t jcal_batch_vqf(const float *values, size_t count, float period_s, float *orientations)

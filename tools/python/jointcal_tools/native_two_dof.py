@@ -1,7 +1,8 @@
-"""The 2-DoF stream engine and VQF of the C library over whole arrays, through ctypes.
+"""The 2-DoF engines and VQF of the C library over whole arrays, through ctypes.
 
     q1, q2 = orientations(recording)
     track = run(recording.t_s, q1, q2, constraint="rotation")
+    track, kept_us = run_window(recording.t_s, q1, q2, constraint="orientation", n_max=200)
 """
 
 from __future__ import annotations
@@ -27,6 +28,13 @@ class Options(ctypes.Structure):
 
 class Input(ctypes.Structure):
     _fields_ = [("t_us", ctypes.c_void_p), ("values", ctypes.c_void_p), ("count", ctypes.c_size_t)]
+
+
+class WindowOut(ctypes.Structure):
+    """jcal_batch_two_dof_window_out_t."""
+
+    _fields_ = [("rows", ctypes.c_void_p), ("rejected_by", ctypes.c_void_p), ("kept_us", ctypes.c_void_p),
+                ("kept_count", ctypes.c_uint64)]
 
 
 @dataclass
@@ -78,14 +86,26 @@ def orientations(rec: Recording) -> tuple[np.ndarray, np.ndarray]:
     return found[0], found[1]
 
 
-def run(t_s: np.ndarray, q1: np.ndarray, q2: np.ndarray, **settings: float | str) -> Track:
-    """A fresh stream engine over all orientations; settings are the fields of Options."""
+def options_of(settings: dict[str, float | str]) -> Options:
     options = Options()
     library().jcal_batch_two_dof_defaults(ctypes.byref(options))
     for name, value in settings.items():
         if name not in dict(Options._fields_):
             raise TypeError(f"'{name}' is not an option")
         setattr(options, name, CONSTRAINTS[value] if name == "constraint" else value)
+    return options
+
+
+def track_of(t_s: np.ndarray, rows: np.ndarray, rejected: np.ndarray) -> Track:
+    status, reason, weak = rows[:, :3].astype(int).T
+    return Track(np.asarray(t_s, float) - t_s[0], status, reason, weak, rows[:, 4:7].astype(float),
+                 rows[:, 7:10].astype(float), np.degrees(rows[:, 10].astype(float)), np.degrees(rows[:, 11].astype(float)),
+                 np.degrees(rows[:, 12:15].astype(float)), dict(zip(REJECTIONS, rejected.tolist(), strict=True)))
+
+
+def run(t_s: np.ndarray, q1: np.ndarray, q2: np.ndarray, **settings: float | str) -> Track:
+    """A fresh stream engine over all orientations; settings are the fields of Options."""
+    options = options_of(settings)
     data, t_us = np.ascontiguousarray(np.hstack([q1, q2]), np.float32), microseconds(t_s)
     rows = np.zeros((len(data), COLUMNS), np.float32)
     rejected = np.zeros(len(REJECTIONS), np.uint32)
@@ -94,7 +114,20 @@ def run(t_s: np.ndarray, q1: np.ndarray, q2: np.ndarray, **settings: float | str
                                             ctypes.c_void_p(rows.ctypes.data), ctypes.c_void_p(rejected.ctypes.data))
     if done != 0:
         raise RuntimeError(f"jcal_batch_two_dof_run returned {done}")
-    status, reason, weak = rows[:, :3].astype(int).T
-    return Track(np.asarray(t_s, float) - t_s[0], status, reason, weak, rows[:, 4:7].astype(float),
-                 rows[:, 7:10].astype(float), np.degrees(rows[:, 10].astype(float)), np.degrees(rows[:, 11].astype(float)),
-                 np.degrees(rows[:, 12:15].astype(float)), dict(zip(REJECTIONS, rejected.tolist(), strict=True)))
+    return track_of(t_s, rows, rejected)
+
+
+def run_window(t_s: np.ndarray, q1: np.ndarray, q2: np.ndarray, constraint: str = "rotation", n_max: int = 200,
+               **settings: float) -> tuple[Track, np.ndarray]:
+    """A fresh window engine over all orientations, and the times (us) of its buffer at the end, oldest first."""
+    options = options_of({"constraint": constraint, **settings})
+    data, t_us = np.ascontiguousarray(np.hstack([q1, q2]), np.float32), microseconds(t_s)
+    rows = np.zeros((len(data), COLUMNS), np.float32)
+    rejected, kept_us = np.zeros(len(REJECTIONS), np.uint32), np.zeros(n_max, np.uint64)
+    source = Input(t_us.ctypes.data, data.ctypes.data, len(data))
+    out = WindowOut(rows.ctypes.data, rejected.ctypes.data, kept_us.ctypes.data, 0)
+    done = library().jcal_batch_two_dof_window_run(ctypes.byref(options), ctypes.c_uint32(n_max), ctypes.byref(source),
+                                                   ctypes.byref(out))
+    if done != 0:
+        raise RuntimeError(f"jcal_batch_two_dof_window_run returned {done}")
+    return track_of(t_s, rows, rejected), kept_us[: out.kept_count]

@@ -11,7 +11,7 @@ import numpy as np
 from .. import lai22, native
 from .. import native_two_dof as two_dof
 from .. import quaternions as quat
-from ..lai22_signals import median_angle, prepare, reference_heading
+from ..lai22_signals import Prepared, Samples, median_angle, prepare, reference_heading, select_indices
 from .harness import Report, Settings, Skipped, median, number, percent, quantile, run_jobs
 from .judge import available, line_angle_deg, nominal_axes, recording
 
@@ -23,6 +23,9 @@ AXIS_DEG = HEADING_DEG = 1.3
 INFORMATIVE_RAD_S = 0.3  # of both joint rates and of the first sensor's rate, rms
 READY_SHARE_10_S = 0.85
 MEDIAN_DEG, MOST_DEG = 0.8, 2.0
+SAME_MINIMUM_DEG = 0.05  # window engine and float64 on its buffer, at the end of a recording
+NUMPY_FORM = {"rotation": "rotation", "orientation": "orientation-variance"}  # sin(beta0) eliminated
+WINDOW_ENDS = 12  # places in each recording at which they are compared besides
 SAME_FORM_DEG = 0.2  # stream and window form of the rotation-based constraint
 HEADING_LAST_S = 10.0
 
@@ -180,10 +183,61 @@ def against_numpy(names: list[str], report: Report) -> None:
                 f"{number(max(apart, default=np.nan))} deg at most, {len(apart)} windows.")
 
 
+def kept_samples(t_us: np.ndarray, q1: np.ndarray, q2: np.ndarray) -> Prepared:
+    """Data sets by the window engine's rule: one every 0.05 s or more, rates from its neighbours on both sides."""
+    indices = select_indices(t_us * 1e-6)
+    span_s = (t_us[indices[2:]] - t_us[indices[:-2]])[:, None] * 1e-6
+    poses = [q[indices].astype(float) for q in (q1, q2)]
+    poses = [q / np.linalg.norm(q, axis=1, keepdims=True) for q in poses]
+    rates = [quat.rotation_vectors(quat.multiply(q[2:], quat.conjugate(q[:-2]))) / span_s for q in poses]
+    middle = indices[1:-1]
+    return Prepared(Samples(*(quat.matrices(q[1:-1]) for q in poses), *rates), t_us[middle] * 1e-6, middle, 0.0)
+
+
+def window_apart(whole: Rig, constraint: str, end_s: float) -> tuple[float, bool]:
+    """Window engine after `end_s`, float64 on its buffer: largest angle between their axes, deg; ready."""
+    part = slice(0, int(np.searchsorted(whole.t_s, end_s, "right")))
+    t_us, q1, q2 = native.microseconds(whole.t_s[part]).astype(np.int64), whole.q1[part], whole.q2[part]
+    track, kept_us = two_dof.run_window(whole.t_s[part], q1, q2, constraint=constraint)
+    prepared = kept_samples(t_us, q1, q2)
+    indices = np.flatnonzero(np.isin(t_us[prepared.source], kept_us.astype(np.int64)))
+    if len(indices) != len(kept_us):
+        raise RuntimeError("the window engine kept other samples than its rule says")
+    pose = lai22.solve_on_indices(prepared, indices, NUMPY_FORM[constraint]).pose
+    apart = max(float(line_angle_deg(track.axis1[-1], pose.j1)), float(line_angle_deg(track.axis2[-1], pose.j2)))
+    return apart, bool(track.ready[-1])
+
+
+def window_engine(names: list[str], report: Report) -> None:
+    """The window engine on whole recordings, and against float64 from many starts on the samples in its buffer."""
+    rows = []
+    for name in names:
+        whole = rig(name)
+        for constraint in NUMPY_FORM:
+            track, _ = two_dof.run_window(whole.t_s, whole.q1, whole.q2, constraint=constraint)
+            errors, ready, first = errors_of(track, whole.axes), track.ready, track.first_ready()
+            at_end = window_apart(whole, constraint, whole.t_s[-1])[0]
+            places = [window_apart(whole, constraint, end_s) for end_s in np.linspace(20.0, whole.t_s[-1], WINDOW_ENDS)]
+            while_ready = [apart for apart, is_ready in places if is_ready]
+            rows.append([name, constraint, number(np.inf if first is None else track.t_s[first], 1),
+                         percent(ready.sum(), len(ready)), number(errors[ready].max() if ready.any() else np.nan),
+                         number(at_end, 4), number(max(while_ready, default=np.nan), 4), len(while_ready)])
+            report.require_most(f"window engine, {constraint}, {name}: apart from float64 at the end", at_end,
+                                SAME_MINIMUM_DEG, " deg")
+            report.require_none(f"window engine, {constraint}, {name}: false ready",
+                                int((ready & is_false(errors, track.bounds_deg[:, :2])).sum()), len(ready))
+    report.text("Window engine, 200 samples, whole recordings. Apart: largest angle between its axes and those of float64, "
+                "solved from many starts, on the samples in its buffer; at the end, and the most at "
+                f"{WINDOW_ENDS} places per recording, those at which it is ready. deg.")
+    report.table(["recording", "constraint", "ready after, s", "ready", "worst while ready", "apart at the end",
+                  "apart while ready", "places"], rows)
+
+
 def measure(settings: Settings, report: Report) -> None:
     names = need_rig()
     whole_recordings(names, report)
     against_numpy(names[:1] if settings.quick else names, report)
+    window_engine(names[:1] if settings.quick else names, report)
     jobs = [(name, length_s, index) for name in names for length_s in LENGTHS_S
             for index in range(int(rig(name).t_s[-1] // length_s))]
     jobs = jobs[::3] if settings.quick else jobs
