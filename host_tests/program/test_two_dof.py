@@ -77,6 +77,26 @@ class Columns(TwoDofTest):
             self.assertAlmostEqual(end["heading_offset_deg"], math.degrees(-1.2), delta=0.3)
             self.assertAlmostEqual(end["carrying_angle_deg"], math.degrees(0.15), delta=0.3)
 
+    def test_window_engine(self):
+        for constraint in ([], ["--constraint", "orientation"]):
+            # Ten seconds of one constraint alone tell less than all: 5 degrees are asked for.
+            lines, status = self.lines(FILE, "--every", "1", "--engine", "window", "--max-bound", "5", *constraint)
+            for line in lines:
+                self.assertEqual(list(line), KEYS)
+                self.assertEqual(line["engine"], "window")
+            self.assertEqual(status, 0)
+            self.assertLess(angle_deg(lines[-1]["axis1"], (0, 0, 1)), lines[-1]["uncertainty_deg"][0])
+            self.assertLess(angle_deg(lines[-1]["axis2"], (0, 1, 0)), lines[-1]["uncertainty_deg"][1])
+            self.assertAlmostEqual(lines[-1]["heading_offset_deg"], math.degrees(-1.2), delta=1.0)
+
+    def test_length_of_the_window(self):
+        window = ("--engine", "window", "--every", "1")
+        expected = self.lines(FILE, *window)
+        self.assertEqual(self.lines(FILE, *window, "--window", "10", "--constraint", "rotation"), expected)
+        self.assertEqual(self.lines(FILE, *window, "--n-max", "200"), expected)
+        self.assertNotEqual(self.lines(FILE, *window, "--n-max", "100"), expected)
+        self.assertEqual(self.lines(FILE, *window, "--window", "5"), self.lines(FILE, *window, "--n-max", "100"))
+
     def test_heading_over_the_whole_circle(self):
         for heading in (3.1, -3.1, math.pi, 0.0):
             text = recordings.csv(recordings.texts(recordings.two_dof_rows(15, heading)), COLUMNS)
@@ -231,6 +251,8 @@ class Refused(TwoDofTest):
     def test_options_that_do_not_go_together(self):
         self.assert_usage(["two-dof", "a", "--n-max", "100"], "--n-max goes with --engine window only")
         self.assert_usage(["two-dof", "a", "--engine", "window", "--constraint", "combined"], "--constraint combined")
+        self.assert_usage(["two-dof", "a", "--engine", "window", "--n-max", "100", "--window", "5"],
+                          "--n-max and --window")
         self.assert_usage(["two-dof", "a", "--sign-hint", "same"], "--sign-hint is for a hinge")
 
     def test_values_of_options(self):
@@ -239,6 +261,10 @@ class Refused(TwoDofTest):
         self.assert_usage(["two-dof", "a", "--constraint", "both"], "--constraint: 'both' is neither")
         for value in ("0", "1.9", "601", "x", "nan"):
             self.assert_usage(["two-dof", "a", "--window=" + value], "--window")
+        for value in ("0.9", "51", "x"):
+            self.assert_usage(["two-dof", "a", "--engine=window", "--window=" + value], "--window")
+        for value in ("19", "20.5", "1001", "70000", "x"):
+            self.assert_usage(["two-dof", "a", "--engine=window", "--n-max=" + value], "--n-max")
         for value in ("0", "60", "x", "inf"):
             self.assert_usage(["two-dof", "a", "--max-bound=" + value], "--max-bound")
 

@@ -5,7 +5,6 @@
 #include "option_values.h"
 
 #include <argp.h>
-#include <math.h>
 #include <string.h>
 
 #define RAD_PER_DEG 0.0174532925f
@@ -40,15 +39,6 @@ typedef struct {
     bool has_window;
 } parse_t;
 
-static uint16_t sample_count(struct argp_state *state, const char *text)
-{
-    const float value = option_positive(state, "n-max", text);
-    if (value > 65535.0f || floorf(value) != value) {
-        argp_error(state, "--n-max: '%s' is not a whole number from 20 to 10000", text);
-    }
-    return (uint16_t)value;
-}
-
 /* Everything that can be judged only when all options are known. */
 static void check(struct argp_state *state, const parse_t *parse)
 {
@@ -81,7 +71,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         engine->kind = (jcal_engine_t)option_one_of_two(state, "engine", argument, "stream", "window");
         return 0;
     case KEY_N_MAX:
-        engine->config.n_max = sample_count(state, argument);
+        engine->config.n_max = option_sample_count(state, argument, 10000);
         parse->has_n_max = true;
         return 0;
     case KEY_WINDOW:

@@ -122,7 +122,7 @@ int two_dof_command(int argc, char **argv)
     if (run == NULL || !two_dof_engine_start(&run->engine, &options.engine)) {
         complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
     } else {
-        status = calibrate(&options.common, &TWO_DOF, run, options.engine.config.max_bound_rad);
+        status = calibrate(&options.common, &TWO_DOF, run, options.engine.config.two_dof.max_bound_rad);
     }
     if (run != NULL) {
         two_dof_engine_stop(&run->engine);

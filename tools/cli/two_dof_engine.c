@@ -1,35 +1,51 @@
 /* SPDX-License-Identifier: MIT */
-/* One face for the engines of a joint with two axes. */
+/* One face for both engines of a joint with two axes. */
 #include "two_dof_engine.h"
 
-bool two_dof_engine_exists(jcal_engine_t kind)
-{
-    return kind == JCAL_ENGINE_STREAM;
-}
+#include <stdlib.h>
 
 bool two_dof_engine_start(two_dof_engine_t *engine, const two_dof_engine_config_t *config)
 {
     engine->kind = config->kind;
-    return jcal_two_dof_init(&engine->stream, &config->config) == JCAL_OK;
+    engine->storage = NULL;
+    if (engine->kind == JCAL_ENGINE_STREAM) {
+        return jcal_two_dof_init(&engine->as.stream, &config->config.two_dof) == JCAL_OK;
+    }
+    const size_t bytes = jcal_two_dof_window_storage_bytes(&config->config);
+    engine->storage = malloc(bytes);
+    return engine->storage != NULL &&
+           jcal_two_dof_window_init(&engine->as.window, &config->config, engine->storage, bytes) == JCAL_OK;
 }
 
 bool two_dof_engine_update(two_dof_engine_t *engine, const jcal_orientation_pair_t *pair)
 {
-    return jcal_two_dof_update(&engine->stream, pair) >= JCAL_OK;
+    const jcal_status_t status = (engine->kind == JCAL_ENGINE_STREAM)
+                                     ? jcal_two_dof_update(&engine->as.stream, pair)
+                                     : jcal_two_dof_window_update(&engine->as.window, pair);
+    return status >= JCAL_OK;
 }
 
 void two_dof_engine_get(const two_dof_engine_t *engine, jcal_two_dof_result_t *result)
 {
     /* The only error is a null pointer. */
-    (void)jcal_two_dof_get(&engine->stream, result);
+    if (engine->kind == JCAL_ENGINE_STREAM) {
+        (void)jcal_two_dof_get(&engine->as.stream, result);
+    } else {
+        (void)jcal_two_dof_window_get(&engine->as.window, result);
+    }
 }
 
 void two_dof_engine_reset(two_dof_engine_t *engine)
 {
-    (void)jcal_two_dof_reset(&engine->stream);
+    if (engine->kind == JCAL_ENGINE_STREAM) {
+        (void)jcal_two_dof_reset(&engine->as.stream);
+    } else {
+        (void)jcal_two_dof_window_reset(&engine->as.window);
+    }
 }
 
 void two_dof_engine_stop(two_dof_engine_t *engine)
 {
-    (void)engine;
+    free(engine->storage);
+    engine->storage = NULL;
 }

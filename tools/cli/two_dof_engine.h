@@ -1,23 +1,25 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// One face for the engines of a joint with two axes. So far there is one: stream.
+/// One face for both engines of a joint with two axes.
 #ifndef JCAL_CLI_TWO_DOF_ENGINE_H
 #define JCAL_CLI_TWO_DOF_ENGINE_H
 
 #include "jointcal/jointcal.h"
 
+/// Config of the window engine, whose `two_dof` part serves both.
 typedef struct {
     jcal_engine_t kind;
-    jcal_two_dof_config_t config;
+    jcal_two_dof_window_config_t config;
 } two_dof_engine_config_t;
 
 typedef struct {
     jcal_engine_t kind;
-    jcal_two_dof_t stream;
+    void *storage;
+    union {
+        jcal_two_dof_t stream;
+        jcal_two_dof_window_t window;
+    } as;
 } two_dof_engine_t;
-
-/// True if this program has the engine.
-bool two_dof_engine_exists(jcal_engine_t kind);
 
 /// False if memory ran out. The config has been checked before.
 bool two_dof_engine_start(two_dof_engine_t *engine, const two_dof_engine_config_t *config);

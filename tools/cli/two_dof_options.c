@@ -5,9 +5,13 @@
 #include "option_values.h"
 
 #include <argp.h>
+#include <math.h>
 #include <string.h>
 
 #define RAD_PER_DEG 0.0174532925f
+
+/* Samples that the window engine keeps a second. */
+#define ROWS_PER_S 20.0f
 
 /* Keys of options without a short form. */
 enum { KEY_CONSTRAINT = 256, KEY_ENGINE, KEY_N_MAX, KEY_WINDOW, KEY_EVERY, KEY_MAX_BOUND, KEY_SIGN_HINT, KEY_JSON };
@@ -15,13 +19,18 @@ enum { KEY_CONSTRAINT = 256, KEY_ENGINE, KEY_N_MAX, KEY_WINDOW, KEY_EVERY, KEY_M
 static const struct argp_option OPTIONS[] = {
     {"constraint", KEY_CONSTRAINT, "NAME", 0,
      "What is known of the joint. rotation: its segments do not turn against each other about the third axis; orientation: "
-     "the angle between its axes does not change; combined (default): both",
+     "the angle between its axes does not change; combined: both (default, but rotation with --engine window, which has no "
+     "combined)",
      0},
     {"engine", KEY_ENGINE, "NAME", 0,
-     "How to compute. stream (default): sums of moments, constant memory. window: not available yet", 0},
-    {"n-max", KEY_N_MAX, "N", 0, "Samples in the window engine's buffer", 0},
+     "How to compute. stream (default): sums of moments, constant memory. window: the last samples in a buffer, 20 a second, "
+     "as published by Laidig et al. 2022",
+     0},
+    {"n-max", KEY_N_MAX, "N", 0, "Samples in the window engine's buffer, 20 to 1000 (default 200)", 0},
     {"window", KEY_WINDOW, "S", 0,
-     "Memory in seconds for the heading, which drifts, once the calibration is ready: 2 to 600 (default 5)", 0},
+     "Memory in seconds for the heading, which drifts, once the calibration is ready: 2 to 600 (default 5). With --engine "
+     "window the length of its buffer: 1 to 50 (default 10)",
+     0},
     {"every", KEY_EVERY, "S", 0, "Report an estimate every S seconds of recording time", 0},
     {"max-bound", KEY_MAX_BOUND, "DEG", 0,
      "Ready when both axes and the heading are known to within DEG degrees with 95 % confidence (default 3)", 0},
@@ -33,6 +42,7 @@ static const struct argp_option OPTIONS[] = {
 typedef struct {
     two_dof_options_t options;
     bool has_n_max;
+    bool has_window;
     bool has_constraint;
 } parse_t;
 
@@ -50,36 +60,62 @@ static jcal_constraint_t constraint(struct argp_state *state, const char *word)
     return JCAL_CONSTRAINT_ORIENTATION;
 }
 
-static void check_engine(struct argp_state *state, const parse_t *parse)
+static void check_stream(struct argp_state *state, const parse_t *parse)
 {
-    const two_dof_engine_config_t *engine = &parse->options.engine;
-    if (parse->has_n_max && engine->kind == JCAL_ENGINE_STREAM) {
+    if (parse->has_n_max) {
         argp_error(state, "--n-max goes with --engine window only: the stream engine keeps no samples");
-    }
-    if (engine->kind == JCAL_ENGINE_WINDOW && parse->has_constraint &&
-        engine->config.constraint == JCAL_CONSTRAINT_COMBINED) {
-        argp_error(state, "--constraint combined goes with --engine stream only: choose rotation or orientation");
-    }
-    if (!two_dof_engine_exists(engine->kind)) {
-        argp_error(state, "--engine window is not available yet for a joint with two axes");
     }
 }
 
-/* Everything that can be judged only when all options are known. */
-static void check(struct argp_state *state, const parse_t *parse)
+/* The buffer's length in samples, whichever way it was given. */
+static void settle_window(struct argp_state *state, parse_t *parse)
 {
-    const jcal_two_dof_config_t *config = &parse->options.engine.config;
-    if (parse->options.common.recording == NULL) {
-        argp_error(state, "which recording? Give a file name, or - for standard input");
+    jcal_two_dof_window_config_t *config = &parse->options.engine.config;
+    if (!parse->has_constraint) {
+        config->two_dof.constraint = JCAL_CONSTRAINT_ROTATION;
     }
-    check_engine(state, parse);
+    if (config->two_dof.constraint == JCAL_CONSTRAINT_COMBINED) {
+        argp_error(state, "--constraint combined goes with --engine stream only: choose rotation or orientation");
+    }
+    if (parse->has_n_max && parse->has_window) {
+        argp_error(state, "--n-max and --window both set the length of the buffer: give one of them");
+    }
+    if (parse->has_window) {
+        const float samples = roundf(ROWS_PER_S * config->two_dof.memory_s);
+        if (samples < 20.0f || samples > 1000.0f) {
+            argp_error(state, "--window: %g is not a number of seconds from 1 to 50", (double)config->two_dof.memory_s);
+        }
+        config->n_max = (uint16_t)samples;
+        config->two_dof.memory_s = jcal_two_dof_config_default().memory_s; /* has no meaning here */
+    }
+}
+
+static void check_config(struct argp_state *state, const two_dof_engine_config_t *engine)
+{
+    const jcal_two_dof_config_t *config = &engine->config.two_dof;
     const char *field = jcal_two_dof_config_check(config);
     if (field != NULL && strcmp(field, "memory_s") == 0) {
         argp_error(state, "--window: %g is not a number of seconds from 2 to 600", (double)config->memory_s);
     } else if (field != NULL) {
         argp_error(state, "--max-bound: %g degrees are outside what makes sense, 0.06 to 28 degrees",
                    (double)(config->max_bound_rad / RAD_PER_DEG));
+    } else if (engine->kind == JCAL_ENGINE_WINDOW && jcal_two_dof_window_config_check(&engine->config) != NULL) {
+        argp_error(state, "--n-max: %d is not a number from 20 to 1000", (int)engine->config.n_max);
     }
+}
+
+/* Everything that can be judged only when all options are known. */
+static void settle(struct argp_state *state, parse_t *parse)
+{
+    if (parse->options.common.recording == NULL) {
+        argp_error(state, "which recording? Give a file name, or - for standard input");
+    }
+    if (parse->options.engine.kind == JCAL_ENGINE_STREAM) {
+        check_stream(state, parse);
+    } else {
+        settle_window(state, parse);
+    }
+    check_config(state, &parse->options.engine);
 }
 
 /* Options that say what to compute. */
@@ -89,21 +125,22 @@ static error_t parse_values(int key, char *argument, struct argp_state *state)
     two_dof_engine_config_t *engine = &parse->options.engine;
     switch (key) {
     case KEY_CONSTRAINT:
-        engine->config.constraint = constraint(state, argument);
+        engine->config.two_dof.constraint = constraint(state, argument);
         parse->has_constraint = true;
         return 0;
     case KEY_ENGINE:
         engine->kind = (jcal_engine_t)option_one_of_two(state, "engine", argument, "stream", "window");
         return 0;
     case KEY_N_MAX:
-        (void)option_positive(state, "n-max", argument);
+        engine->config.n_max = option_sample_count(state, argument, 1000);
         parse->has_n_max = true;
         return 0;
     case KEY_WINDOW:
-        engine->config.memory_s = 1e-6f * (float)option_duration(state, "window", argument);
+        engine->config.two_dof.memory_s = 1e-6f * (float)option_duration(state, "window", argument);
+        parse->has_window = true;
         return 0;
     case KEY_MAX_BOUND:
-        engine->config.max_bound_rad = option_positive(state, "max-bound", argument) * RAD_PER_DEG;
+        engine->config.two_dof.max_bound_rad = option_positive(state, "max-bound", argument) * RAD_PER_DEG;
         return 0;
     case KEY_SIGN_HINT:
         argp_error(state, "--sign-hint is for a hinge: each axis of a joint with two axes has a sign of its own");
@@ -131,7 +168,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         common->recording = argument;
         return 0;
     case ARGP_KEY_END:
-        check(state, parse);
+        settle(state, parse);
         return 0;
     default:
         return parse_values(key, argument, state);
@@ -157,7 +194,8 @@ static const struct argp PARSER = {
 
 two_dof_options_t two_dof_options(int argc, char **argv)
 {
-    parse_t parse = {.options.engine.config = jcal_two_dof_config_default()};
+    parse_t parse = {.options.engine.config = jcal_two_dof_window_config_default()};
+    parse.options.engine.config.two_dof.constraint = JCAL_CONSTRAINT_COMBINED;
     (void)argp_parse(&PARSER, argc, argv, 0, NULL, &parse);
     return parse.options;
 }
