@@ -43,6 +43,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     memory_t memory = {data + 1, size - 1, (size_t)data[0] + 1};
     recording_event_t event = recording_open(&recording, read_memory, &memory);
+    if (event == RECORDING_ROW) {
+        event = recording_check_orientations(&recording);
+        recording.want_orientations = recording.has_orientations;
+    }
     recording_row_t row;
     size_t rows = 0;
     while (event == RECORDING_ROW) {

@@ -10,7 +10,7 @@
 #include "orientations.h"
 #include "progress.h"
 #include "recording.h"
-#include "run.h"
+#include "row_clock.h"
 
 #include <errno.h>
 #include <math.h>
@@ -33,7 +33,7 @@ typedef struct {
     angles_options_t options;
     input_t input;
     recording_t recording;
-    orientations_t *orientations;
+    orientations_t orientations;
     progress_t progress;
     angles_output_t output;
     jcal_hinge_t hinge;
@@ -43,6 +43,7 @@ typedef struct {
     joint_t joint;
     jcal_joint_heading_t follower;
     bool has_follower;
+    row_clock_t clock;
     bool at_end; /* the last row whose orientations were of use had angles */
 } session_t;
 
@@ -98,10 +99,9 @@ static void set_axes(session_t *session, jcal_vec3_t axis1, jcal_vec3_t axis2, f
 }
 
 /* The calibration of this recording, up to this row. */
-static bool update_engine(session_t *session, const oriented_row_t *oriented)
+static bool update_engine(session_t *session, const recording_row_t *row, const jcal_orientation_pair_t *orientations)
 {
-    const recording_row_t *row = &oriented->row;
-    const jcal_orientation_pair_t *orientations = &oriented->pair;
+    session->joint.known = false;
     if (session->options.hinge) {
         jcal_pair_t pair = {orientations->t_us, row->imu1, row->imu2};
         if (!row->has_time) {
@@ -111,17 +111,12 @@ static bool update_engine(session_t *session, const oriented_row_t *oriented)
         if (jcal_hinge_update(&session->hinge, &pair) < 0 || jcal_hinge_get(&session->hinge, &result) != JCAL_OK) {
             return false;
         }
-        session->joint.known = false;
         if (result.status == JCAL_READY) {
             set_axes(session, result.axis1, result.axis2, 0.0f);
         }
         return true;
     }
-    if (oriented->reject != JCAL_REJECT_NONE && oriented->reject != JCAL_REJECT_GAP) {
-        return true; /* nothing new */
-    }
     jcal_two_dof_result_t result;
-    session->joint.known = false;
     if (jcal_two_dof_update(&session->two_dof, orientations) < 0 ||
         jcal_two_dof_get(&session->two_dof, &result) != JCAL_OK) {
         return false;
@@ -183,11 +178,17 @@ static bool is_usable(jcal_reject_t reject)
 static exit_status_t run_row(session_t *session, const oriented_row_t *oriented)
 {
     const recording_row_t *row = &oriented->row;
-    jcal_orientation_pair_t orientations = oriented->pair;
-    const bool usable = is_usable(oriented->reject) &&
-                        is_usable(jcal_orientation_gate_check(&session->gate, &session->gate_config, &orientations));
+    jcal_orientation_pair_t orientations = {row_clock_advance(&session->clock, row), row->q1, row->q2};
+    if (!row->has_time || oriented->reject != JCAL_REJECT_NONE) {
+        orientations.q1.w = NAN; /* the library's time has no NaN; the sample has */
+    }
+    if (oriented->restarted) { /* headings of before are gone */
+        (void)jcal_two_dof_reset(&session->two_dof);
+        session->has_follower = false;
+    }
+    const bool usable = is_usable(jcal_orientation_gate_check(&session->gate, &session->gate_config, &orientations));
     angles_row_t out = {row->t_us, row->has_time, false, {0.0f, 0.0f, 0.0f}, 0.0f};
-    bool understood = session->options.calibration != NULL || update_engine(session, oriented);
+    bool understood = session->options.calibration != NULL || update_engine(session, row, &orientations);
     if (usable && understood) {
         jcal_heading_t heading;
         orientations.q1 = jcal_quat_normalise(orientations.q1);
@@ -207,11 +208,24 @@ static exit_status_t run_row(session_t *session, const oriented_row_t *oriented)
     return angles_output_row(&session->output, &out);
 }
 
+/* Says why the recording could not be read on. */
+static exit_status_t give_up(session_t *session, recording_event_t event)
+{
+    const recording_fault_t *fault = &session->recording.fault;
+    progress_clear(&session->progress);
+    if (event == RECORDING_BAD) {
+        complain(session->input.name, fault->line, fault->column, "%s", fault->text);
+        return EXIT_INPUT;
+    }
+    complain(session->input.name, 0, 0, "%s", strerror((session->input.error != 0) ? session->input.error : ENOMEM));
+    return EXIT_TROUBLE;
+}
+
 static exit_status_t run_rows(session_t *session)
 {
     oriented_row_t row;
-    recording_event_t event = orientations_next(session->orientations, &row);
-    for (; event == RECORDING_ROW; event = orientations_next(session->orientations, &row)) {
+    recording_event_t event = orientations_next(&session->orientations, &row);
+    for (; event == RECORDING_ROW; event = orientations_next(&session->orientations, &row)) {
         const exit_status_t status = run_row(session, &row);
         if (status != EXIT_READY) {
             return status;
@@ -219,8 +233,7 @@ static exit_status_t run_rows(session_t *session)
         progress_show(&session->progress, session->recording.csv.bytes);
     }
     if (event != RECORDING_END) {
-        progress_clear(&session->progress);
-        return run_give_up(&session->input, &session->recording, event);
+        return give_up(session, event);
     }
     progress_clear(&session->progress);
     const exit_status_t status = angles_output_end(&session->output);
@@ -230,28 +243,26 @@ static exit_status_t run_rows(session_t *session)
     return session->at_end ? EXIT_READY : EXIT_NOT_READY;
 }
 
+static exit_status_t run_oriented(session_t *session)
+{
+    exit_status_t status = angles_output_open(&session->output, &session->options);
+    if (status == EXIT_READY) {
+        progress_start(&session->progress, session->input.size);
+        status = run_rows(session);
+    }
+    angles_output_close(&session->output);
+    return status;
+}
+
 static exit_status_t run_recording(session_t *session)
 {
-    recording_t *recording = &session->recording;
-    const recording_event_t event = recording_open(recording, input_read, &session->input);
-    exit_status_t status = EXIT_INPUT;
-    if (event != RECORDING_ROW) {
-        status = run_give_up(&session->input, recording, event);
-    } else if (!orientations_possible(&session->input, recording)) {
-        /* it has said why */
-    } else if ((session->orientations = orientations_open(recording)) == NULL) {
-        complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
-        status = EXIT_TROUBLE;
-    } else {
-        status = angles_output_open(&session->output, &session->options);
-        if (status == EXIT_READY) {
-            progress_start(&session->progress, session->input.size);
-            status = run_rows(session);
-        }
-        angles_output_close(&session->output);
-        orientations_close(session->orientations);
+    recording_event_t event = recording_open(&session->recording, input_read, &session->input);
+    if (event == RECORDING_ROW) {
+        event = orientations_open(&session->orientations, &session->recording);
     }
-    recording_close(recording);
+    const exit_status_t status = (event == RECORDING_ROW) ? run_oriented(session) : give_up(session, event);
+    orientations_close(&session->orientations);
+    recording_close(&session->recording);
     return status;
 }
 

@@ -5,7 +5,6 @@
 #include "option_values.h"
 
 #include <argp.h>
-#include <math.h>
 #include <string.h>
 
 #define RAD_PER_DEG 0.0174532925f
@@ -40,20 +39,11 @@ typedef struct {
     bool has_window;
 } parse_t;
 
-static uint16_t sample_count(struct argp_state *state, const char *text)
-{
-    const float value = option_positive(state, "n-max", text);
-    if (value > 65535.0f || floorf(value) != value) {
-        argp_error(state, "--n-max: '%s' is not a whole number from 20 to 10000", text);
-    }
-    return (uint16_t)value;
-}
-
 /* Everything that can be judged only when all options are known. */
 static void check(struct argp_state *state, const parse_t *parse)
 {
     const engine_config_t *engine = &parse->options.engine;
-    if (parse->options.recording == NULL) {
+    if (parse->options.common.recording == NULL) {
         argp_error(state, "which recording? Give a file name, or - for standard input");
     }
     if (parse->has_n_max && engine->kind == JCAL_ENGINE_STREAM) {
@@ -81,7 +71,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         engine->kind = (jcal_engine_t)option_one_of_two(state, "engine", argument, "stream", "window");
         return 0;
     case KEY_N_MAX:
-        engine->config.n_max = sample_count(state, argument);
+        engine->config.n_max = option_sample_count(state, argument, 10000);
         parse->has_n_max = true;
         return 0;
     case KEY_WINDOW:
@@ -89,7 +79,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         parse->has_window = true;
         return 0;
     case KEY_EVERY:
-        parse->options.every_us = option_duration(state, "every", argument);
+        parse->options.common.every_us = option_duration(state, "every", argument);
         return 0;
     case KEY_MAX_BOUND:
         engine->config.hinge.max_bound_rad = option_positive(state, "max-bound", argument) * RAD_PER_DEG;
@@ -100,13 +90,13 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
                                              : JCAL_SIGN_OPPOSITE;
         return 0;
     case KEY_JSON:
-        parse->options.json = true;
+        parse->options.common.json = true;
         return 0;
     case ARGP_KEY_ARG:
-        if (parse->options.recording != NULL) {
+        if (parse->options.common.recording != NULL) {
             argp_error(state, "one recording at a time, and '%s' is a second one", argument);
         }
-        parse->options.recording = argument;
+        parse->options.common.recording = argument;
         return 0;
     case ARGP_KEY_END:
         check(state, parse);

@@ -4,12 +4,11 @@
 #ifndef JCAL_CLI_HINGE_OPTIONS_H
 #define JCAL_CLI_HINGE_OPTIONS_H
 
+#include "calibrate.h"
 #include "engine.h"
 
 typedef struct {
-    const char *recording;  ///< File name, "-" for standard input.
-    bool json;
-    int64_t every_us;        ///< 0 if not asked for.
+    calibrate_options_t common;
     engine_config_t engine;  ///< Valid for its engine.
 } hinge_options_t;
 

@@ -81,7 +81,7 @@ static const struct argp PARSER = {
            "  angles   the angles of a joint, from these axes\n"
            "  hinge    both axes of a joint with one axis, like a knee or a finger joint\n"
            "  stream   plays a recording to a hub and writes what the hub finds\n"
-           "  two-dof  both axes of a joint with two axes, like an elbow or an ankle\n"
+           "  two-dof  both axes of a joint with two axes, like elbow and forearm, and the heading offset\n"
            "\n"
            "'jointcal hinge --help' and so on tell all about them.",
 };

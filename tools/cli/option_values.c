@@ -4,6 +4,7 @@
 
 #include "number.h"
 
+#include <math.h>
 #include <string.h>
 
 int option_one_of_two(struct argp_state *state, const char *option, const char *word, const char *first,
@@ -31,4 +32,13 @@ float option_positive(struct argp_state *state, const char *option, const char *
         argp_error(state, "--%s: '%s' is not a number above 0", option, text);
     }
     return value;
+}
+
+uint16_t option_sample_count(struct argp_state *state, const char *text, int most)
+{
+    const float value = option_positive(state, "n-max", text);
+    if (value > 65535.0f || floorf(value) != value) {
+        argp_error(state, "--n-max: '%s' is not a whole number from 20 to %d", text, most);
+    }
+    return (uint16_t)value;
 }

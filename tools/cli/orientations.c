@@ -1,83 +1,28 @@
 /* SPDX-License-Identifier: MIT */
-/* Rows of a recording as pairs of orientations. */
+/* Orientations of the rows of a recording. */
 #include "orientations.h"
 
-#include "message.h"
+#include "jointcal/vec3.h"
 
-#ifdef JCAL_CLI_HAS_VQF
+#ifdef JOINTCAL_HAS_VQF
 #include "jcal_vqf.h"
 #endif
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Missing rows are filled in up to this many; more are a gap. */
-#define FILL_MAX 50u
+/* Longest time from sample to sample that is filled, and the period of a recording that shows none. */
+#define BRIDGE_US 150000
+#define USUAL_PERIOD_US 10000
 
-struct orientations {
-    recording_t *recording;
-    timeline_t timeline;
-    bool from_columns;
-    recording_row_t ahead[ORIENTATIONS_AHEAD];
-    size_t ahead_count, ahead_at;
-    recording_event_t ahead_end; /* why no more rows were held back */
-    bool has_period;
-    uint64_t period_us;
-    uint64_t fed_us; /* the library's time of the last row that the filters have */
-    jcal_gate_t gate;
-    jcal_gate_config_t gate_config;
-    jcal_pair_t last; /* the last reading that was accepted */
-    bool has_last;
-#ifdef JCAL_CLI_HAS_VQF
-    jcal_vqf_t filters[2];
-#endif
-    jcal_quat_t q[2];
+#ifdef JOINTCAL_HAS_VQF
+
+struct orientations_filter {
+    jcal_vqf_t vqf;
+    jcal_imu_t last;
+    jcal_quat_t q;
 };
-
-bool orientations_possible(const input_t *input, const recording_t *recording)
-{
-    if (recording->lacks[0] != '\0') {
-        complain(input->name, 1, 0, "some columns of orientations are there, but not %s", recording->lacks);
-        return false;
-    }
-#ifndef JCAL_CLI_HAS_VQF
-    if (!recording->has_orientations) {
-        complain(
-            input->name, 1, 0,
-            "missing columns q1_w ... q2_z, and this program was built without the filter VQF that would find them: "
-            "run tools/vqf.sh and build again with a C++ compiler");
-        return false;
-    }
-#endif
-    return true;
-}
-
-orientations_t *orientations_open(recording_t *recording)
-{
-    orientations_t *self = calloc(1, sizeof *self);
-    if (self != NULL) {
-        self->recording = recording;
-        self->from_columns = recording->has_orientations;
-        recording->want_orientations = self->from_columns;
-        self->gate_config = jcal_gate_config_default();
-        jcal_gate_init(&self->gate);
-        self->q[0] = jcal_quat(1.0f, 0.0f, 0.0f, 0.0f);
-        self->q[1] = self->q[0];
-    }
-    return self;
-}
-
-bool orientations_from_columns(const orientations_t *orientations)
-{
-    return orientations->from_columns;
-}
-
-void orientations_close(orientations_t *orientations)
-{
-    free(orientations);
-}
 
 static int compare(const void *a, const void *b)
 {
@@ -86,157 +31,210 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Median of the time steps of the rows held back; 0 if there are none. */
-static uint64_t median_step(const orientations_t *self)
+/* Median of the time steps that lead forward. */
+static int64_t usual_step_us(const recording_row_t *rows, size_t count)
 {
-    int64_t steps[ORIENTATIONS_AHEAD];
-    size_t count = 0;
-    for (size_t k = 1; k < self->ahead_count; k++) {
-        const recording_row_t *row = &self->ahead[k];
-        if (row->has_time && row[-1].has_time && row->t_us > row[-1].t_us) {
-            steps[count] = row->t_us - row[-1].t_us;
-            count++;
+    int64_t steps[ORIENTATIONS_WAIT] = {USUAL_PERIOD_US}; /* stays where nothing leads forward */
+    size_t n = 0;
+    for (size_t k = 1; k < count; k++) {
+        if (rows[k].has_time && rows[k - 1].has_time && rows[k].t_us > rows[k - 1].t_us) {
+            steps[n++] = rows[k].t_us - rows[k - 1].t_us;
         }
     }
-    if (count == 0) {
-        return 0;
-    }
-    qsort(steps, count, sizeof steps[0], compare);
-    return (uint64_t)steps[count / 2];
+    qsort(steps, n, sizeof steps[0], compare);
+    return steps[n / 2];
 }
 
-#ifdef JCAL_CLI_HAS_VQF
-/* False if VQF cannot work with this period. */
 static bool start_filters(orientations_t *self)
 {
     const float period_s = 1e-6f * (float)self->period_us;
-    return jcal_vqf_init(&self->filters[0], period_s, period_s) == JCAL_OK &&
-           jcal_vqf_init(&self->filters[1], period_s, period_s) == JCAL_OK;
+    return jcal_vqf_init(&self->filters[0].vqf, period_s, period_s) == JCAL_OK &&
+           jcal_vqf_init(&self->filters[1].vqf, period_s, period_s) == JCAL_OK;
 }
 
-static void feed_one(jcal_vqf_t *filter, const jcal_imu_t *imu, jcal_quat_t *q)
+static jcal_vec3_t between(jcal_vec3_t from, jcal_vec3_t to, float share)
 {
-    const float gyr[3] = {imu->gyr_rad_s.x, imu->gyr_rad_s.y, imu->gyr_rad_s.z};
-    const float acc[3] = {imu->acc_m_s2.x, imu->acc_m_s2.y, imu->acc_m_s2.z};
-    float quat[4];
-    if (jcal_vqf_update(filter, gyr, acc, quat) == JCAL_OK) {
-        *q = (jcal_quat_t){quat[0], quat[1], quat[2], quat[3]};
-    }
+    return jcal_vec3_add(from, jcal_vec3_scale(jcal_vec3_sub(to, from), share));
 }
 
-static void feed(orientations_t *self, const jcal_pair_t *reading)
+/* Feeds `steps` samples that lead from the last one to this one; rates are multiplied by `scale`. */
+static void feed(orientations_filter_t *filter, const jcal_imu_t *imu, int64_t steps, float scale)
 {
-    feed_one(&self->filters[0], &reading->imu1, &self->q[0]);
-    feed_one(&self->filters[1], &reading->imu2, &self->q[1]);
-}
-#else
-static bool start_filters(orientations_t *self)
-{
-    (void)self;
-    return false;
-}
-
-static void feed(orientations_t *self, const jcal_pair_t *reading)
-{
-    (void)self;
-    (void)reading;
-}
-#endif
-
-/* Holds the first rows back and finds their period. Says what is wrong in the recording's fault. */
-static recording_event_t look_ahead(orientations_t *self)
-{
-    self->ahead_end = RECORDING_ROW;
-    while (self->ahead_count < ORIENTATIONS_AHEAD) {
-        self->ahead_end = recording_next(self->recording, &self->ahead[self->ahead_count]);
-        if (self->ahead_end != RECORDING_ROW) {
-            break;
+    for (int64_t k = 1; k <= steps; k++) {
+        const float share = (float)k / (float)steps;
+        const jcal_vec3_t w = (k < steps) ? between(filter->last.gyr_rad_s, imu->gyr_rad_s, share) : imu->gyr_rad_s;
+        const jcal_vec3_t a = (k < steps) ? between(filter->last.acc_m_s2, imu->acc_m_s2, share) : imu->acc_m_s2;
+        const float gyr[3] = {scale * w.x, scale * w.y, scale * w.z};
+        const float acc[3] = {a.x, a.y, a.z};
+        float q[4] = {1.0f, 0.0f, 0.0f, 0.0f};
+        /* The gate lets nothing pass that the filter would reject. */
+        if (jcal_vqf_update(&filter->vqf, gyr, acc, q) == JCAL_OK) {
+            filter->q = (jcal_quat_t){q[0], q[1], q[2], q[3]};
         }
-        self->ahead_count++;
     }
-    self->has_period = true;
-    self->period_us = median_step(self);
-    if (self->period_us == 0) {
-        return RECORDING_ROW; /* nothing that could be filtered: every row will be refused, or there is one at most */
-    }
-    if (!start_filters(self)) {
-        recording_fault_t *fault = &self->recording->fault;
-        fault->line = 0;
-        fault->column = 0;
-        (void)snprintf(fault->text, sizeof fault->text,
-                       "a sample period of %g s: orientations can be found from 10 to 10000 samples a second",
-                       1e-6 * (double)self->period_us);
-        return RECORDING_BAD;
-    }
-    return RECORDING_ROW;
+    filter->last = *imu;
 }
 
-static recording_event_t next_row(orientations_t *self, recording_row_t *row)
+/* Brings both filters to the time of a row. */
+static void feed_row(orientations_t *self, const recording_row_t *row)
 {
-    if (self->ahead_at < self->ahead_count) {
-        *row = self->ahead[self->ahead_at];
-        self->ahead_at++;
+    int64_t steps = 1;
+    float scale = 1.0f;
+    const int64_t dt_us = row->t_us - self->fed_us;
+    if (self->has_fed && dt_us > BRIDGE_US) {
+        self->restart_due = true;
+        (void)start_filters(self); /* worked before */
+    } else if (self->has_fed) {
+        steps = (dt_us + self->period_us / 2) / self->period_us;
+        steps = (steps > 1) ? steps : 1;
+        scale = (float)dt_us / (float)(steps * self->period_us);
+    }
+    feed(&self->filters[0], &row->imu1, steps, scale);
+    feed(&self->filters[1], &row->imu2, steps, scale);
+    self->has_fed = true;
+    self->fed_us = row->t_us;
+}
+
+static void filter_row(orientations_t *self, oriented_row_t *out)
+{
+    recording_row_t *row = &out->row;
+    jcal_pair_t pair = {row_clock_advance(&self->clock, row), row->imu1, row->imu2};
+    if (!row->has_time) {
+        /* The library's time has no NaN; the sample has. */
+        pair.imu1.gyr_rad_s.x = NAN;
+    }
+    out->reject = jcal_gate_check(&self->gate, &self->gate_config, &pair);
+    if (out->reject == JCAL_REJECT_NONE || out->reject == JCAL_REJECT_SATURATED || out->reject == JCAL_REJECT_GAP) {
+        feed_row(self, row);
+        row->q1 = self->filters[0].q;
+        row->q2 = self->filters[1].q;
+    }
+    out->restarted = self->restart_due && out->reject == JCAL_REJECT_NONE;
+    self->restart_due = self->restart_due && !out->restarted;
+}
+
+static recording_event_t open_filters(orientations_t *self)
+{
+    self->filters = calloc(2, sizeof *self->filters);
+    return (self->filters != NULL) ? RECORDING_ROW : RECORDING_FAILED;
+}
+
+/* Reads the rows that tell the sample period. */
+static recording_event_t wait_for_period(orientations_t *self)
+{
+    self->waited = true;
+    self->event = RECORDING_ROW;
+    while (self->row_count < ORIENTATIONS_WAIT && self->event == RECORDING_ROW) {
+        self->event = recording_next(self->recording, &self->rows[self->row_count]);
+        self->row_count += (self->event == RECORDING_ROW) ? 1 : 0;
+    }
+    self->period_us = usual_step_us(self->rows, self->row_count);
+    if (start_filters(self)) {
         return RECORDING_ROW;
     }
-    if (self->ahead_end != RECORDING_ROW) {
-        return self->ahead_end;
-    }
-    return recording_next(self->recording, row);
+    return recording_refuse(self->recording,
+                            "rows are %g s apart: orientations from rates need 10 to 10000 rows a second",
+                            1e-6 * (double)self->period_us);
 }
 
-/* Gives the filters what they have missed since they were fed last, then this reading. */
-static void filter(orientations_t *self, const jcal_pair_t *pair)
+#else
+
+struct orientations_filter {
+    int none;
+};
+
+static void filter_row(orientations_t *self, oriented_row_t *out)
 {
-    if (self->period_us == 0) {
-        return;
-    }
-    if (self->has_last) {
-        const uint64_t missing = (pair->t_us - self->fed_us + self->period_us / 2) / self->period_us;
-        for (uint64_t k = 1; k < missing && missing <= FILL_MAX; k++) {
-            feed(self, &self->last);
-        }
-    }
-    feed(self, pair);
-    self->last = *pair;
-    self->has_last = true;
-    self->fed_us = pair->t_us;
+    (void)self;
+    out->reject = JCAL_REJECT_NOT_FINITE;
 }
 
-recording_event_t orientations_next(orientations_t *orientations, oriented_row_t *out)
+static recording_event_t open_filters(orientations_t *self)
 {
-    orientations_t *self = orientations;
-    if (!self->from_columns && !self->has_period) {
-        const recording_event_t event = look_ahead(self);
+    return recording_refuse(self->recording,
+                            "no columns q1_w ... q2_z, and this program was built without the filter that computes "
+                            "orientations: install a C++ compiler (Debian: g++), run tools/vqf.sh and build again");
+}
+
+static recording_event_t wait_for_period(orientations_t *self)
+{
+    return open_filters(self);
+}
+
+#endif
+
+static bool finite_imu(const jcal_imu_t *imu)
+{
+    return jcal_vec3_is_finite(imu->gyr_rad_s) && jcal_vec3_is_finite(imu->acc_m_s2);
+}
+
+static bool finite_quat(jcal_quat_t q)
+{
+    return isfinite(q.w) && isfinite(q.x) && isfinite(q.y) && isfinite(q.z);
+}
+
+/* The library checks the orientations themselves. */
+static void check_row(oriented_row_t *out)
+{
+    const recording_row_t *row = &out->row;
+    const bool finite = row->has_time && finite_imu(&row->imu1) && finite_imu(&row->imu2) && finite_quat(row->q1) &&
+                        finite_quat(row->q2);
+    out->reject = finite ? JCAL_REJECT_NONE : JCAL_REJECT_NOT_FINITE;
+}
+
+recording_event_t orientations_open(orientations_t *self, recording_t *recording)
+{
+    memset(self, 0, sizeof *self);
+    self->recording = recording;
+    self->gate_config = jcal_gate_config_default();
+    jcal_gate_init(&self->gate);
+    const recording_event_t event = recording_check_orientations(recording);
+    if (event != RECORDING_ROW) {
+        return event;
+    }
+    recording->want_orientations = recording->has_orientations;
+    self->source = recording->has_orientations ? ORIENTATIONS_FROM_COLUMNS : ORIENTATIONS_FROM_FILTER;
+    return recording->has_orientations ? RECORDING_ROW : open_filters(self);
+}
+
+/* The next row of those that waited, else of the recording. */
+static recording_event_t take_row(orientations_t *self, recording_row_t *row)
+{
+    if (self->row_at < self->row_count) {
+        *row = self->rows[self->row_at++];
+        return RECORDING_ROW;
+    }
+    return (self->event == RECORDING_ROW) ? recording_next(self->recording, row) : self->event;
+}
+
+recording_event_t orientations_next(orientations_t *self, oriented_row_t *row)
+{
+    *row = (oriented_row_t){.reject = JCAL_REJECT_NONE, .restarted = false};
+    if (self->source == ORIENTATIONS_FROM_COLUMNS) {
+        const recording_event_t event = recording_next(self->recording, &row->row);
+        check_row(row);
+        return event;
+    }
+    if (!self->waited) {
+        const recording_event_t event = wait_for_period(self);
         if (event != RECORDING_ROW) {
             return event;
         }
     }
-    const recording_event_t event =
-        self->from_columns ? recording_next(self->recording, &out->row) : next_row(self, &out->row);
-    if (event != RECORDING_ROW) {
-        return event;
+    const recording_event_t event = take_row(self, &row->row);
+    if (event == RECORDING_ROW) {
+        filter_row(self, row);
     }
-    recording_row_t *row = &out->row;
-    jcal_pair_t reading = {timeline_advance(&self->timeline, row), row->imu1, row->imu2};
-    out->timeline = self->timeline;
-    out->pair.t_us = reading.t_us;
-    if (self->from_columns) {
-        out->reject = JCAL_REJECT_NONE;
-        out->pair.q1 = row->q1;
-        out->pair.q2 = row->q2;
-        if (!row->has_time) {
-            out->pair.q1.w = NAN; /* the library's time has no NaN; the sample has */
-        }
-        return RECORDING_ROW;
-    }
-    if (!row->has_time) {
-        reading.imu1.gyr_rad_s.x = NAN;
-    }
-    out->reject = jcal_gate_check(&self->gate, &self->gate_config, &reading);
-    if (out->reject == JCAL_REJECT_NONE || out->reject == JCAL_REJECT_GAP || out->reject == JCAL_REJECT_REPEATED) {
-        filter(self, &reading);
-    }
-    out->pair.q1 = self->q[0];
-    out->pair.q2 = self->q[1];
-    return RECORDING_ROW;
+    return event;
+}
+
+jcal_reason_t orientations_complaint(const orientations_t *self)
+{
+    return jcal_gate_complaint(&self->gate);
+}
+
+void orientations_close(orientations_t *self)
+{
+    free(self->filters);
+    self->filters = NULL;
 }

@@ -82,27 +82,6 @@ static recording_event_t check_missing(recording_t *recording, const bool found[
                other_separator ? " (cells must be separated by commas)" : "");
 }
 
-/* Which columns of orientations are there. */
-static void note_orientations(recording_t *recording, const bool found[ALL_COLUMNS])
-{
-    size_t count = 0;
-    size_t length = 0;
-    char names[sizeof recording->lacks] = "";
-    for (size_t k = RECORDING_COLUMNS; k < ALL_COLUMNS; k++) {
-        if (found[k]) {
-            count++;
-        } else {
-            /* All names together are shorter than the buffer. */
-            length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", (length == 0) ? "" : ", ",
-                                       COLUMN_NAMES[k]);
-        }
-    }
-    recording->has_orientations = count == RECORDING_ORIENTATION_COLUMNS;
-    if (count > 0) {
-        memcpy(recording->lacks, names, sizeof names);
-    }
-}
-
 static recording_event_t read_header(recording_t *recording)
 {
     const csv_event_t event = csv_next(&recording->csv);
@@ -126,7 +105,11 @@ static recording_event_t read_header(recording_t *recording)
         found[column] = true;
         recording->index[column] = k;
     }
-    note_orientations(recording, found);
+    recording->has_orientations = true;
+    for (size_t k = RECORDING_COLUMNS; k < ALL_COLUMNS; k++) {
+        recording->has_orientations = recording->has_orientations && found[k];
+        recording->found_orientations |= found[k] ? (1u << (k - RECORDING_COLUMNS)) : 0u;
+    }
     return check_missing(recording, found);
 }
 
@@ -163,6 +146,52 @@ recording_event_t recording_open(recording_t *recording, csv_read_t *read, void 
     memset(recording, 0, sizeof *recording);
     csv_open(&recording->csv, read, context);
     return read_header(recording);
+}
+
+static bool found_orientation(const recording_t *recording, size_t column)
+{
+    return (recording->found_orientations >> (column - RECORDING_COLUMNS) & 1u) != 0u;
+}
+
+/* Names the columns of one sensor's orientation that are missing, at the leftmost one that is there. */
+static recording_event_t part_missing(recording_t *recording, size_t first)
+{
+    char names[64] = "";
+    size_t length = 0;
+    size_t leftmost = recording->header_cells;
+    for (size_t k = first; k < first + 4; k++) {
+        if (!found_orientation(recording, k)) {
+            length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", (length == 0) ? "" : ", ",
+                                       COLUMN_NAMES[k]);
+        } else if (recording->index[k] < leftmost) {
+            leftmost = recording->index[k];
+        }
+    }
+    const csv_cell_t *there = &recording->csv.cells[leftmost];
+    return bad(recording, there->line, there->column, "%s without %s: an orientation has four columns", there->text,
+               names);
+}
+
+recording_event_t recording_check_orientations(recording_t *recording)
+{
+    for (size_t sensor = 0; sensor < 2; sensor++) {
+        const unsigned found = (recording->found_orientations >> (4 * sensor)) & 15u;
+        if (found != 0u && found != 15u) {
+            return part_missing(recording, RECORDING_COLUMNS + 4 * sensor);
+        }
+    }
+    return RECORDING_ROW;
+}
+
+recording_event_t recording_refuse(recording_t *recording, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    recording->fault.line = 0;
+    recording->fault.column = 0;
+    (void)vsnprintf(recording->fault.text, sizeof recording->fault.text, format, arguments);
+    va_end(arguments);
+    return RECORDING_BAD;
 }
 
 recording_event_t recording_next(recording_t *recording, recording_row_t *row)

@@ -40,14 +40,21 @@ typedef struct {
     csv_t csv;
     recording_fault_t fault;
     size_t header_cells;
-    bool has_orientations;   ///< The header names all of q1_w ... q2_z.
-    char lacks[64];          ///< Those of them that it does not name, if it names others; else empty.
-    bool want_orientations;  ///< Set after recording_open: read them, and complain about text in them.
+    bool has_orientations;       ///< The header names all of q1_w ... q2_z.
+    bool want_orientations;      ///< Set after recording_open: read them, and complain about text in them.
+    unsigned found_orientations; /* a bit for each of q1_w ... q2_z */
     size_t index[RECORDING_COLUMNS + RECORDING_ORIENTATION_COLUMNS]; /* cell of each column we want */
 } recording_t;
 
 /// Reads the header. RECORDING_ROW if all columns are there, else RECORDING_BAD or RECORDING_FAILED.
 recording_event_t recording_open(recording_t *recording, csv_read_t *read, void *context);
+
+/// RECORDING_BAD if a sensor has some of its four orientation columns but not all, else RECORDING_ROW. Between open and next only.
+recording_event_t recording_check_orientations(recording_t *recording);
+
+/// Puts a fault of the whole file in words. Returns RECORDING_BAD.
+__attribute__((format(printf, 2, 3))) recording_event_t recording_refuse(recording_t *recording, const char *format,
+                                                                         ...);
 
 /// Reads one row.
 recording_event_t recording_next(recording_t *recording, recording_row_t *row);

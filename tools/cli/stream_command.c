@@ -2,7 +2,7 @@
 /* `jointcal stream`: rows to a hub, the hub's estimates out. */
 #include "stream_command.h"
 
-#include "hinge_json.h"
+#include "hinge_output.h"
 #include "hub_link.h"
 #include "input.h"
 #include "message.h"
@@ -43,11 +43,11 @@ typedef struct {
 /* Each event is flushed, so that readers of a pipe get it at once. */
 static void emit(session_t *session, const char *event, const message_estimate_t *estimate)
 {
-    const hinge_report_t report = {.result = estimate->result,
-                                   .has_time = estimate->now_us != MESSAGE_TIME_UNKNOWN,
-                                   .t_us = (int64_t)(estimate->now_us - ORIGIN_US + (uint64_t)session->start_us)};
+    const report_t report = {.finding = hinge_finding(&estimate->result),
+                             .clock.has_time = estimate->now_us != MESSAGE_TIME_UNKNOWN,
+                             .clock.t_us = (int64_t)(estimate->now_us - ORIGIN_US + (uint64_t)session->start_us)};
     progress_clear(&session->progress);
-    hinge_write_json(stdout, event, &report);
+    hinge_write_json(stdout, event, &report, &estimate->result);
     if (fflush(stdout) != 0 || ferror(stdout) != 0) {
         session->output_failed = true;
     }

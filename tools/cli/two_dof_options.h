@@ -4,13 +4,12 @@
 #ifndef JCAL_CLI_TWO_DOF_OPTIONS_H
 #define JCAL_CLI_TWO_DOF_OPTIONS_H
 
-#include "jointcal/jointcal.h"
+#include "calibrate.h"
+#include "two_dof_engine.h"
 
 typedef struct {
-    const char *recording;  ///< File name, "-" for standard input.
-    bool json;
-    int64_t every_us;  ///< 0 if not asked for.
-    jcal_two_dof_config_t config;
+    calibrate_options_t common;
+    two_dof_engine_config_t engine;  ///< Valid for its engine.
 } two_dof_options_t;
 
 /// Reads and checks the command line; ends the program itself for --help, --version and mistakes.

@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: MIT */
+/* What `jointcal hinge` writes: the parts that only a hinge has. */
+#include "hinge_output.h"
+
+#include <math.h>
+#include <string.h>
+
+const report_words_t HINGE_WORDS = {
+    .name = "Hinge",
+    .misfit = "no hinge explains the data: another kind of joint, or sensors that share none",
+    .ambiguous = "other axes explain the data about equally",
+    .move_joint = "bend and stretch the joint",
+    .asked_for = "both axes",
+};
+
+finding_t hinge_finding(const jcal_hinge_result_t *result)
+{
+    finding_t finding = {.status = result->status,
+                         .engine = result->engine,
+                         .weak = result->weak,
+                         .hint = result->hint,
+                         .reason = result->reason,
+                         .has_axes = result->has_axes,
+                         .axis1 = result->axis1,
+                         .axis2 = result->axis2,
+                         .uncertainty1_rad = result->uncertainty1_rad,
+                         .uncertainty2_rad = result->uncertainty2_rad,
+                         .samples = result->samples,
+                         .rejected = result->rejected};
+    memcpy(finding.rejected_by, result->rejected_by, sizeof finding.rejected_by);
+    return finding;
+}
+
+void hinge_write_json(FILE *file, const char *event, const report_t *report, const jcal_hinge_result_t *result)
+{
+    json_t json = report_json_begin(file, event, report);
+    json_number(&json, "sign_margin", (result->sign_margin > 0.0f) ? result->sign_margin : NAN);
+    if (result->engine == JCAL_ENGINE_WINDOW) {
+        json_bool(&json, "paper_accepted", result->paper_accepted);
+    }
+    report_json_end(&json, &report->finding);
+}
+
+static void print_pairing(FILE *file, float margin)
+{
+    if (margin > 0.0f) {
+        (void)fprintf(file, "  %-18s the other one explains the data %.3g times worse\n", "sign pairing",
+                      (double)margin);
+    } else {
+        report_print_words(file, "sign pairing", "unknown");
+    }
+}
+
+void hinge_print_summary(FILE *file, const report_t *report, const jcal_hinge_result_t *result)
+{
+    report_print_head(file, report);
+    print_pairing(file, result->sign_margin);
+    report_print_state(file, report);
+    if (result->engine == JCAL_ENGINE_WINDOW) {
+        report_print_words(file, "paper's test", result->paper_accepted ? "accepted" : "not accepted");
+    }
+    report_print_exit(file, report);
+}

@@ -1,0 +1,71 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// What every calibration reports, whatever the joint: JSON Lines and text for people.
+#ifndef JCAL_CLI_REPORT_H
+#define JCAL_CLI_REPORT_H
+
+#include "jointcal/jointcal.h"
+#include "json.h"
+#include "row_clock.h"
+
+#define DEG_PER_RAD 57.2957795f
+
+/// A bound from here on says nothing: any two axes are at most a quarter turn apart.
+#define BOUND_UNKNOWN_RAD 1.5707f
+
+/// Words that differ between joints.
+typedef struct {
+    const char *name;        ///< As a heading: "Hinge".
+    const char *misfit;      ///< What it means that the data do not fit.
+    const char *ambiguous;   ///< What it means that another minimum fits as well.
+    const char *move_joint;  ///< How to move the joint.
+    const char *asked_for;   ///< What must be known to within the bound: "both axes".
+} report_words_t;
+
+/// What the results of all joints have in common; see the result of any.
+typedef struct {
+    jcal_calibration_t status;
+    jcal_engine_t engine;
+    jcal_weak_t weak;
+    jcal_hint_t hint;
+    jcal_reason_t reason;
+    bool has_axes;
+    jcal_vec3_t axis1, axis2;
+    float uncertainty1_rad, uncertainty2_rad;
+    uint32_t samples;
+    uint32_t rejected;
+    uint32_t rejected_by[JCAL_REJECT_COUNT];
+} finding_t;
+
+/// A finding and what the program knows besides.
+typedef struct {
+    const report_words_t *words;
+    finding_t finding;
+    row_clock_t clock;
+    bool was_ready;    ///< Ready was entered at least once.
+    int64_t ready_us;  ///< When it was entered first, as in the file.
+    float max_bound_rad;
+} report_t;
+
+/// Begins a line of JSON: the keys from `event` to `uncertainty_deg`. `event` is estimate, ready, moved or end.
+json_t report_json_begin(FILE *file, const char *event, const report_t *report);
+
+/// Ends it with the counters.
+void report_json_end(json_t *json, const finding_t *finding);
+
+/// One line of text for an event in the middle: estimate, ready, moved.
+void report_print_event(FILE *file, const char *event, const report_t *report);
+
+/// A labelled line of the summary, or nothing if there are no words.
+void report_print_words(FILE *file, const char *label, const char *words);
+
+/// Beginning of the summary: status and axes.
+void report_print_head(FILE *file, const report_t *report);
+
+/// Middle of the summary: what was asked for, what is missing, and the counters.
+void report_print_state(FILE *file, const report_t *report);
+
+/// Last line of the summary.
+void report_print_exit(FILE *file, const report_t *report);
+
+#endif

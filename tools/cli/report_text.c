@@ -1,0 +1,202 @@
+/* SPDX-License-Identifier: MIT */
+/* What the program tells a person of any joint. */
+#include "message.h"
+#include "report.h"
+
+#include <inttypes.h>
+
+static double degrees(float rad)
+{
+    return (double)(DEG_PER_RAD * rad);
+}
+
+static const char *status_words(jcal_calibration_t status)
+{
+    switch (status) {
+    case JCAL_READY:
+        return "ready";
+    case JCAL_AMBIGUOUS:
+        return "not ready, because more than one answer fits";
+    case JCAL_MOVED:
+        return "not ready any more: a sensor has moved";
+    case JCAL_COLLECTING:
+    default:
+        return "not ready";
+    }
+}
+
+static const char *reason_words(const report_t *report)
+{
+    switch (report->finding.reason) {
+    case JCAL_REASON_NO_DATA:
+        return "too few usable samples";
+    case JCAL_REASON_NO_MOTION:
+        return "the segments hardly turn against each other";
+    case JCAL_REASON_UNCERTAIN:
+        return report->finding.weak == JCAL_WEAK_HEADING ? "the heading is not known well enough"
+                                                         : "an axis is not known well enough";
+    case JCAL_REASON_SIGN_OPEN:
+        return "both sign pairings explain the data about equally";
+    case JCAL_REASON_OTHER_MINIMUM:
+        return report->words->ambiguous;
+    case JCAL_REASON_DOES_NOT_FIT:
+        return report->words->misfit;
+    case JCAL_REASON_BAD_SAMPLES:
+        return "too many samples are rejected";
+    case JCAL_REASON_WRONG_UNITS_GYR:
+        return "angular rates look like deg/s; rad/s are needed";
+    case JCAL_REASON_WRONG_UNITS_ACC:
+        return "accelerations look like g; m/s^2 are needed";
+    case JCAL_REASON_NONE:
+    default:
+        return NULL;
+    }
+}
+
+static const char *hint_words(const report_t *report)
+{
+    switch (report->finding.hint) {
+    case JCAL_HINT_MOVE_JOINT:
+        return report->words->move_joint;
+    case JCAL_HINT_MOVE_SEGMENT1:
+        return "turn the proximal segment, the one with sensor 1";
+    case JCAL_HINT_MOVE_SEGMENT2:
+        return "turn the distal segment, the one with sensor 2";
+    case JCAL_HINT_TILT_AXIS:
+        return "tilt the joint axis out of the horizontal";
+    case JCAL_HINT_CHECK_SENSORS:
+        return "check units, range, mounting and pairing of the sensors; more motion will not help";
+    case JCAL_HINT_NONE:
+    default:
+        return NULL;
+    }
+}
+
+static const char *weak_words(jcal_weak_t weak)
+{
+    switch (weak) {
+    case JCAL_WEAK_AXIS1:
+        return "axis in sensor 1";
+    case JCAL_WEAK_AXIS2:
+        return "axis in sensor 2";
+    case JCAL_WEAK_SIGN:
+        return "sign pairing";
+    case JCAL_WEAK_HEADING:
+        return "heading offset of the two orientations";
+    case JCAL_WEAK_NONE:
+    default:
+        return NULL;
+    }
+}
+
+static const char *reject_words(jcal_reject_t reject)
+{
+    switch (reject) {
+    case JCAL_REJECT_NOT_FINITE:
+        return "empty or not finite";
+    case JCAL_REJECT_OUT_OF_RANGE:
+        return "out of range";
+    case JCAL_REJECT_SATURATED:
+        return "saturated";
+    case JCAL_REJECT_FROZEN:
+        return "frozen";
+    case JCAL_REJECT_REPEATED:
+        return "repeated";
+    case JCAL_REJECT_TIME_ORDER:
+        return "time not increasing";
+    case JCAL_REJECT_GAP:
+        return "after a gap";
+    case JCAL_REJECT_COUNT:
+    default:
+        return "other";
+    }
+}
+
+void report_print_words(FILE *file, const char *label, const char *words)
+{
+    if (words != NULL) {
+        (void)fprintf(file, "  %-18s %s\n", label, words);
+    }
+}
+
+static void print_axis(FILE *file, const char *label, bool known, jcal_vec3_t axis, float bound_rad)
+{
+    if (!known) {
+        report_print_words(file, label, "unknown");
+        return;
+    }
+    (void)fprintf(file, "  %-18s %8.4f %8.4f %8.4f   ", label, (double)axis.x, (double)axis.y, (double)axis.z);
+    if (bound_rad < BOUND_UNKNOWN_RAD) {
+        (void)fprintf(file, "to within %.1f deg\n", degrees(bound_rad));
+    } else {
+        (void)fputs("uncertainty unknown\n", file);
+    }
+}
+
+static void print_ready_time(FILE *file, const report_t *report)
+{
+    if (report->was_ready) {
+        char buffer[32];
+        (void)fprintf(file, "  %-18s %s s after the start\n", "first ready",
+                      time_text(report->ready_us - report->clock.start_us, buffer));
+    } else {
+        report_print_words(file, "first ready", "never");
+    }
+}
+
+static void print_samples(FILE *file, const finding_t *finding)
+{
+    (void)fprintf(file, "  %-18s %" PRIu32 " read, %" PRIu32 " rejected", "samples", finding->samples,
+                  finding->rejected);
+    const char *before = ": ";
+    for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
+        if (finding->rejected_by[k] > 0) {
+            (void)fprintf(file, "%s%" PRIu32 " %s", before, finding->rejected_by[k], reject_words((jcal_reject_t)k));
+            before = ", ";
+        }
+    }
+    (void)fputc('\n', file);
+}
+
+void report_print_event(FILE *file, const char *event, const report_t *report)
+{
+    const finding_t *finding = &report->finding;
+    char buffer[32];
+    (void)fprintf(file, "%10s s  %-8s %-10s", report->clock.has_time ? time_text(report->clock.t_us, buffer) : "?",
+                  event, jcal_calibration_string(finding->status));
+    if (finding->has_axes && finding->uncertainty1_rad < BOUND_UNKNOWN_RAD &&
+        finding->uncertainty2_rad < BOUND_UNKNOWN_RAD) {
+        (void)fprintf(file, "  axes to within %.1f and %.1f deg", degrees(finding->uncertainty1_rad),
+                      degrees(finding->uncertainty2_rad));
+    }
+    const char *reason = reason_words(report);
+    (void)fprintf(file, "%s%s\n", (reason != NULL) ? "  " : "", (reason != NULL) ? reason : "");
+}
+
+void report_print_head(FILE *file, const report_t *report)
+{
+    const finding_t *finding = &report->finding;
+    (void)fprintf(file, "%s, %s engine: %s\n", report->words->name, jcal_engine_string(finding->engine),
+                  status_words(finding->status));
+    report_print_words(file, "why", reason_words(report));
+    print_axis(file, "axis in sensor 1", finding->has_axes, finding->axis1, finding->uncertainty1_rad);
+    print_axis(file, "axis in sensor 2", finding->has_axes, finding->axis2, finding->uncertainty2_rad);
+}
+
+void report_print_state(FILE *file, const report_t *report)
+{
+    const finding_t *finding = &report->finding;
+    (void)fprintf(file, "  %-18s %s to within %.3g deg (95 %% confidence)\n", "asked for", report->words->asked_for,
+                  degrees(report->max_bound_rad));
+    report_print_words(file, "weakest", weak_words(finding->weak));
+    report_print_words(file, "what would help", hint_words(report));
+    print_ready_time(file, report);
+    print_samples(file, finding);
+}
+
+void report_print_exit(FILE *file, const report_t *report)
+{
+    const bool ready = report->finding.status == JCAL_READY;
+    (void)fprintf(file, "  %-18s %d: read to the end, %s\n", "exit status", (int)(ready ? EXIT_READY : EXIT_NOT_READY),
+                  ready ? "ready" : "not ready");
+}
