@@ -260,7 +260,7 @@ class Refused(AnglesTest):
         self.assert_usage([*hinge, "--zero", "1", "--reference", "1,2"], "a hinge has one angle")
 
     def test_recordings(self):
-        some = "r.csv:1: some columns of orientations are there, but not q2_y, q2_z"
+        some = "r.csv:1:109: q2_w without q2_y, q2_z: an orientation has four columns"
         self.assert_error(self.angles(recordings.csv([row[:19] for row in HINGE_CELLS], COLUMNS[:19]), "hinge"), some)
         self.assert_error(self.run_program("angles", "none.csv", "--joint", "hinge"), "none.csv: No such file or directory")
         cells = [list(row) for row in HINGE_CELLS[:50]]

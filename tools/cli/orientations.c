@@ -104,7 +104,9 @@ static void filter_row(orientations_t *self, oriented_row_t *out)
         pair.imu1.gyr_rad_s.x = NAN;
     }
     out->reject = jcal_gate_check(&self->gate, &self->gate_config, &pair);
-    if (out->reject == JCAL_REJECT_NONE || out->reject == JCAL_REJECT_SATURATED || out->reject == JCAL_REJECT_GAP) {
+    const bool is_fed = out->reject == JCAL_REJECT_NONE || out->reject == JCAL_REJECT_SATURATED ||
+                        out->reject == JCAL_REJECT_REPEATED || out->reject == JCAL_REJECT_GAP;
+    if (is_fed) {
         feed_row(self, row);
         row->q1 = self->filters[0].q;
         row->q2 = self->filters[1].q;
