@@ -268,9 +268,9 @@ static const struct argp PARSER = {
     .args_doc = "RECORDING.csv --joint hinge|two-dof",
     .doc =
         "Computes the angles of a joint from a recording of arbitrary motion.\v"
-        "The recording is as for 'jointcal hinge', with orientations in the columns q1_w, q1_x, q1_y, q1_z, q2_w ... "
-        "q2_z: unit quaternions that turn from the sensor's frame to an earth frame with z up, each with a heading of its "
-        "own.\n"
+        "The recording is as for 'jointcal hinge'. Orientations are taken from the columns q1_w, q1_x, q1_y, q1_z, q2_w ... "
+        "q2_z if they are there: unit quaternions that turn from the sensor's frame to an earth frame with z up, each with a "
+        "heading of its own. Else the filter VQF finds them.\n"
         "\n"
         "Columns written: t_s, flexion_deg; with two axes also pronation_deg, carrying_deg, heading_offset_deg. There is "
         "a row for each row of the recording; its angles are empty while the calibration is not ready. A .sto file "
