@@ -18,9 +18,10 @@ endif()
 if(NOT DEFINED JOINTCAL_STACK_SIZE)
     set(JOINTCAL_STACK_SIZE 0x10000)
 endif()
+# picolibcpp.ld is picolibc.ld with the tables of the unwinder, which some C++ programs link.
 if(NOT DEFINED JOINTCAL_TARGET_LINK_FLAGS)
     string(CONCAT JOINTCAL_TARGET_LINK_FLAGS
-        "--crt0=hosted --oslib=semihost -Tpicolibc.ld -Wl,--gc-sections "
+        "--crt0=hosted --oslib=semihost -Tpicolibcpp.ld -Wl,--gc-sections "
         "-Wl,--defsym=__flash=${JOINTCAL_FLASH},--defsym=__flash_size=${JOINTCAL_MEMORY_SIZE} "
         "-Wl,--defsym=__ram=${JOINTCAL_RAM},--defsym=__ram_size=${JOINTCAL_MEMORY_SIZE} "
         "-Wl,--defsym=__stack_size=${JOINTCAL_STACK_SIZE}")
