@@ -101,7 +101,7 @@ static unknowns_t moved(const jcal_two_dof_point_t *point, float sine, int which
     d[which] = size;
     moved_axis(j1, &t1, &d[0], out.j1);
     moved_axis(j2, &t2, &d[2], out.j2);
-    out.delta = atan2(point->heading.im, point->heading.re) + d[4];
+    out.delta = atan2((double)point->heading.im, (double)point->heading.re) + d[4];
     out.sine = (double)sine + d[5];
     return out;
 }
