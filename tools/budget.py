@@ -201,7 +201,7 @@ def page_of(numbers: dict, code: dict) -> str:
              "both in one, 14 for a division or root, 2 for a load, 1 + N for N registers, 1 to 3 more for a taken branch); low",
              "if loads follow each other and branches are cheap, high if every load, branch and float result is waited for. Flash",
              "adds to that. The STM32F405 reads 128 bits at once through a prefetch and cache lines (reference manual RM0090,",
-             "section 3); of the same scheme in the STM32L4 at 80 MHz and 4 wait states ST's data sheet gives 3.42 CoreMark/MHz,",
+             "section 3); of the same scheme in the STM32L4 at 80 MHz ST's data sheet gives 3.42 CoreMark/MHz,",
              "which is what Arm names for the core itself, so next to nothing is lost in loops. The nRF52840 has an instruction cache",
              "that is off after reset (ICACHECNF of its NVMC); the pull requests RIOT 9400 and ariel-os 1163 measured what it",
              "brings: 1574 ticks fall to 1305 in the latter. `port/boards/nrf52840` switches it on. On a board, `DWT_CYCCNT` before and",
