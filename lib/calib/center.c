@@ -1,0 +1,407 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Stream engine of the joint centre: config, samples into sums, and the schedule of the work.
+#include "jointcal/center.h"
+
+#include "calib/center_judge.h"
+#include "calib/center_model.h"
+#include "calib/center_sums.h"
+#include "calib/watch.h"
+#include "jointcal/vec3.h"
+#include "math/scalar.h"
+#include "math/solve.h"
+#include "math/sym.h"
+#include "sample/inbox.h"
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+/// Motion that the moments hold before their minimum is a start, s: with a standard deviation below START_M, else later.
+#define MOVING_MIN_S 0.5f
+#define MOVING_ENOUGH_S 4.0f
+#define START_M 0.05f
+/// A step of the start shorter than this has arrived, m, and the longest one.
+#define ARRIVED_M 0.01f
+#define STEP_MAX_M 0.3f
+/// The estimate may move this far from where the sums began, m. If more data than that of SETTLED_S want it further away, the sums
+/// begin anew where they want it.
+#define ANCHOR_M 0.03f
+#define SETTLED_S 4.0f
+/// Sums are halved beyond this, s: accelerometers' biases wander.
+#define MEMORY_S 300.0f
+/// What may pass for usual by the watch, times the variance in the config; and where a single residual ends to count: a knock is no slip.
+#define WATCH_SHARE 5.0f
+#define WATCH_MOST 25.0f
+/// Share of the damping of steps at the estimate.
+#define DAMPING 1e-4f
+
+/// Turns of the cycle: the moments' minimum, the slices of the judgement, the estimate's step after the first of them.
+#define TURN_START 0u
+#define TURN_FACTOR 1u
+#define TURN_STEP 2u
+#define TURN_COLUMNS 3u
+#define TURNS (TURN_COLUMNS + JCAL_CENTER_JUDGE_SLICES - 1u)
+
+typedef char jcal_center_fits_its_budget[(sizeof(jcal_center_t) <= 5120u) ? 1 : -1];
+
+jcal_center_config_t jcal_center_config_default(void)
+{
+    const jcal_center_config_t config = {
+        .gate = jcal_gate_config_default(),
+        .method = JCAL_CENTER_SS,
+        .derivative = JCAL_DERIVATIVE_SMOOTHED,
+        .max_bound_m = 0.01f,
+        .mismatch_m = 0.002f,
+        .acc_noise_m_s2 = 0.05f,
+        .turn_error = 0.01f,
+        .acc_bias_m_s2 = 0.3f,
+        .min_rate_rad_s = 0.0f,
+    };
+    return config;
+}
+
+typedef struct {
+    const char *name;
+    float value, low, high;
+} field_t;
+
+/// True for a unit vector or zero.
+static bool is_axis(jcal_vec3_t v)
+{
+    const float square = jcal_vec3_dot(v, v);
+    return (square == 0.0f) || jcal_within(square, 0.99f, 1.01f);
+}
+
+const char *jcal_center_config_check(const jcal_center_config_t *config)
+{
+    const field_t fields[] = {
+        {"max_bound_m", config->max_bound_m, 0.001f, 0.1f},
+        {"mismatch_m", config->mismatch_m, 0.0f, 0.05f},
+        {"acc_noise_m_s2", config->acc_noise_m_s2, 1e-3f, 10.0f},
+        {"turn_error", config->turn_error, 0.0f, 0.5f},
+        {"acc_bias_m_s2", config->acc_bias_m_s2, 0.0f, 2.0f},
+        {"min_rate_rad_s", config->min_rate_rad_s, 0.0f, 20.0f},
+    };
+    for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
+        if (!jcal_within(fields[i].value, fields[i].low, fields[i].high)) {
+            return fields[i].name;
+        }
+    }
+    if (((int)config->method < (int)JCAL_CENTER_SS) || ((int)config->method > (int)JCAL_CENTER_SA)) {
+        return "method";
+    }
+    if (((int)config->derivative < (int)JCAL_DERIVATIVE_SMOOTHED) ||
+        ((int)config->derivative > (int)JCAL_DERIVATIVE_SYMMETRIC)) {
+        return "derivative";
+    }
+    if (!is_axis(config->hinge_axis1)) {
+        return "hinge_axis1";
+    }
+    if (!is_axis(config->hinge_axis2) || ((jcal_vec3_dot(config->hinge_axis1, config->hinge_axis1) > 0.0f) !=
+                                          (jcal_vec3_dot(config->hinge_axis2, config->hinge_axis2) > 0.0f))) {
+        return "hinge_axis2";
+    }
+    return jcal_gate_config_check(&config->gate);
+}
+
+/// Forgets what was learnt of the joint.
+static void begin_anew(jcal_center_t *self, jcal_calibration_t status)
+{
+    (void)memset(self->moments, 0, sizeof self->moments);
+    (void)memset(&self->start, 0, sizeof self->start);
+    (void)memset(&self->sums, 0, sizeof self->sums);
+    (void)memset(&self->watch, 0, sizeof self->watch);
+    self->moving_s = 0.0f;
+    self->turn = TURN_START;
+    self->has_start = false;
+    self->has_point = false;
+    jcal_center_verdict_begin(&self->verdict, status);
+}
+
+jcal_status_t jcal_center_init(jcal_center_t *self, const jcal_center_config_t *config)
+{
+    if ((self == NULL) || (config == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_center_config_check(config) != NULL) {
+        return JCAL_ERR_CONFIG;
+    }
+    const jcal_center_config_t cfg = *config; /* the caller may hand over self->cfg */
+    (void)memset(self, 0, sizeof *self);
+    self->cfg = cfg;
+    jcal_gate_init(&self->gate);
+    jcal_kinematics_begin(&self->kinematics);
+    begin_anew(self, JCAL_COLLECTING);
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_center_reset(jcal_center_t *self)
+{
+    return (self == NULL) ? JCAL_ERR_ARG : jcal_center_init(self, &self->cfg);
+}
+
+jcal_status_t jcal_center_push(jcal_center_t *self, const jcal_pair_t *pair)
+{
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_inbox_full(&self->inbox)) {
+        return JCAL_ERR_FULL;
+    }
+    if (jcal_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
+        return JCAL_REJECTED;
+    }
+    jcal_inbox_put(&self->inbox, pair);
+    return JCAL_OK;
+}
+
+/// Takes a sample into the moments.
+static void add_moments(jcal_center_t *self, const jcal_kinematic_t *sample)
+{
+    float f[JCAL_CENTER_FEATURES];
+    jcal_center_features(sample, f);
+    const float force = jcal_vec3_norm(sample->body1.a) + jcal_vec3_norm(sample->body2.a);
+    const float noise = self->cfg.acc_noise_m_s2 * jcal_max(force, 1.0f);
+    jcal_sym_rank1(self->moments, JCAL_CENTER_FEATURES, f, sample->dt_s / (JCAL_CENTER_READING_S * noise * noise));
+}
+
+/// Takes a sample into the sums at the estimate.
+static void add_residual(jcal_center_t *self, const jcal_kinematic_t *sample, float motion_s)
+{
+    jcal_center_residual_t residual;
+    if (!jcal_center_residual(sample, &self->sums.point, &residual)) {
+        return;
+    }
+    const float variance = jcal_center_variance(&self->cfg, &residual);
+    const float square = jcal_min(residual.e * residual.e / variance, WATCH_MOST);
+    jcal_watch_add(&self->watch, 0u, square / WATCH_SHARE, motion_s);
+    jcal_center_sums_add(&self->sums, &self->cfg, &residual, sample);
+    if (self->sums.time_s > MEMORY_S) {
+        jcal_center_sums_halve(&self->sums);
+    }
+}
+
+static void take_in(jcal_center_t *self, const jcal_kinematic_t *sample)
+{
+    const float rate1 = jcal_body_rate2(&sample->body1);
+    const float rate2 = jcal_body_rate2(&sample->body2);
+    const float least = self->cfg.min_rate_rad_s * self->cfg.min_rate_rad_s;
+    if ((rate1 < least) && (rate2 < least)) {
+        return;
+    }
+    const float motion_s = sample->dt_s * jcal_watch_motion(rate1 + rate2);
+    self->t_us = sample->t_us;
+    if (self->odd || !self->has_point) {
+        add_moments(self, sample);
+        self->moving_s += motion_s;
+    }
+    if (self->moving_s > MEMORY_S) {
+        jcal_sym_scale(self->moments, JCAL_CENTER_FEATURES, 0.5f);
+        self->moving_s *= 0.5f;
+    }
+    if (self->has_point) {
+        add_residual(self, sample, motion_s);
+    }
+    if (jcal_watch_alarm(&self->watch)) {
+        begin_anew(self, JCAL_MOVED);
+    }
+}
+
+/// True if the moments' minimum is known well enough to begin with. `matrix` is lost.
+static bool is_known(const jcal_center_t *self, float *matrix, float cost)
+{
+    if (self->moving_s > MOVING_ENOUGH_S) {
+        return true;
+    }
+    float inverse[JCAL_SYM_SIZE(JCAL_CENTER_PLACE_UNKNOWNS)];
+    if (jcal_chol_factor_in_place(matrix, JCAL_CENTER_PLACE_UNKNOWNS, NULL) != JCAL_OK) {
+        return false;
+    }
+    jcal_chol_inverse(matrix, JCAL_CENTER_PLACE_UNKNOWNS, inverse);
+    float trace = 0.0f;
+    for (size_t i = 0u; i < JCAL_CENTER_PLACE_UNKNOWNS; ++i) {
+        trace += inverse[jcal_sym_at(i, i)];
+    }
+    const float excess = jcal_max(1.0f, cost * JCAL_CENTER_READING_S / self->moving_s);
+    return (trace * excess) < (START_M * START_M);
+}
+
+/// A damped step to the moments' minimum.
+static void step_start(jcal_center_t *self)
+{
+    float gradient[JCAL_CENTER_PLACE_UNKNOWNS];
+    float matrix[JCAL_SYM_SIZE(JCAL_CENTER_PLACE_UNKNOWNS)];
+    float d[JCAL_CENTER_PLACE_UNKNOWNS];
+    const float cost = jcal_center_form(self->moments, &self->start, gradient, matrix);
+    const jcal_gn_model_t model = {JCAL_CENTER_PLACE_UNKNOWNS, gradient, matrix};
+    jcal_gn_t gn = jcal_gn_begin();
+    if (jcal_gn_step(&gn, &model, d, NULL) != JCAL_OK) {
+        return;
+    }
+    const float length = jcal_gn_length(d, JCAL_CENTER_PLACE_UNKNOWNS);
+    const float share = (length > STEP_MAX_M) ? (STEP_MAX_M / length) : 1.0f;
+    self->start.r1 = jcal_vec3_add(self->start.r1, jcal_vec3_scale(jcal_vec3(d[0], d[1], d[2]), share));
+    self->start.r2 = jcal_vec3_add(self->start.r2, jcal_vec3_scale(jcal_vec3(d[3], d[4], d[5]), share));
+    self->has_start = (length < ARRIVED_M) && is_known(self, matrix, cost);
+}
+
+static float apart(const jcal_center_place_t *a, const jcal_center_place_t *b)
+{
+    return jcal_max(jcal_vec3_norm(jcal_vec3_sub(a->r1, b->r1)), jcal_vec3_norm(jcal_vec3_sub(a->r2, b->r2)));
+}
+
+/// One Gauss-Newton step of the estimate, from the factor just made.
+static void step_point(jcal_center_t *self)
+{
+    float prior[JCAL_CENTER_UNKNOWNS];
+    float d[JCAL_CENTER_UNKNOWNS];
+    jcal_center_prior(&self->cfg, prior);
+    jcal_center_sums_gradient(&self->sums, prior, d);
+    for (size_t i = 0u; i < JCAL_CENTER_UNKNOWNS; ++i) {
+        d[i] = -d[i];
+    }
+    jcal_chol_solve_scaled(self->inverse.factor, JCAL_CENTER_UNKNOWNS, self->inverse.scale, d);
+    jcal_center_place_t to = self->sums.point.place;
+    to.r1 = jcal_vec3_add(to.r1, jcal_vec3(d[0], d[1], d[2]));
+    to.r2 = jcal_vec3_add(to.r2, jcal_vec3(d[3], d[4], d[5]));
+    const float from_anchor = apart(&to, &self->sums.anchor);
+    if (!(from_anchor > ANCHOR_M)) {
+        jcal_center_sums_move(&self->sums, d);
+    } else if (self->sums.time_s > SETTLED_S) {
+        jcal_center_sums_begin(&self->sums, &to);
+        self->turn = TURN_FACTOR;
+    } else {
+        /* too little data to follow */
+    }
+}
+
+/// One slice of the work.
+static void work(jcal_center_t *self)
+{
+    const unsigned turn = self->turn;
+    self->turn = (uint8_t)((turn + 1u) % TURNS);
+    if (!self->has_point) {
+        self->turn = TURN_START;
+        if (self->moving_s > MOVING_MIN_S) {
+            step_start(self);
+        }
+        if (self->has_start) {
+            jcal_center_sums_begin(&self->sums, &self->start);
+            self->has_point = true;
+        }
+        return;
+    }
+    if (turn == TURN_START) {
+        return;
+    }
+    if (turn == TURN_FACTOR) {
+        if (!(self->sums.blocks >= 1.0f) || !jcal_center_judge(self, 0u)) {
+            self->turn = TURN_FACTOR;
+        }
+    } else if (turn == TURN_STEP) {
+        step_point(self);
+    } else {
+        (void)jcal_center_judge(self, turn - TURN_COLUMNS + 1u);
+        if (self->verdict.status == (uint8_t)JCAL_READY) {
+            jcal_watch_start(&self->watch);
+        }
+    }
+}
+
+jcal_status_t jcal_center_step(jcal_center_t *self)
+{
+    if (self == NULL) {
+        return JCAL_ERR_ARG;
+    }
+    jcal_pair_t pair;
+    if (!jcal_inbox_take(&self->inbox, &pair)) {
+        return JCAL_IDLE;
+    }
+    jcal_kinematic_t sample;
+    if (!jcal_kinematics_put(&self->kinematics, self->cfg.derivative, &pair, &sample)) {
+        return JCAL_OK;
+    }
+    self->odd = !self->odd;
+    take_in(self, &sample);
+    if (!self->odd) {
+        work(self);
+    }
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_center_update(jcal_center_t *self, const jcal_pair_t *pair)
+{
+    const jcal_status_t status = jcal_center_push(self, pair);
+    if (status >= JCAL_OK) {
+        (void)jcal_center_step(self);
+    }
+    return status;
+}
+
+static float progress(float bound_m, float max_bound_m)
+{
+    return jcal_min(1.0f, max_bound_m / jcal_max(bound_m, FLT_MIN));
+}
+
+/// The points on both axes that are next to the sensors: (11), (12) of [SAL15]. Any other centre on the axis explains as much.
+static void shift_along_axis(const jcal_center_config_t *cfg, jcal_center_place_t *place)
+{
+    const float along1 = jcal_vec3_dot(place->r1, cfg->hinge_axis1);
+    const float along2 = jcal_vec3_dot(place->r2, cfg->hinge_axis2);
+    const float shift = 0.5f * (along1 + along2);
+    place->r1 = jcal_vec3_sub(place->r1, jcal_vec3_scale(cfg->hinge_axis1, shift));
+    place->r2 = jcal_vec3_sub(place->r2, jcal_vec3_scale(cfg->hinge_axis2, shift));
+}
+
+static void tell_verdict(const jcal_center_t *self, jcal_center_result_t *out)
+{
+    const jcal_center_verdict_t *const verdict = &self->verdict;
+    out->status = (jcal_calibration_t)verdict->status;
+    out->weak = (jcal_weak_t)verdict->weak;
+    out->hint = (jcal_hint_t)verdict->hint;
+    out->reason = (jcal_reason_t)verdict->reason;
+    out->uncertainty1_m = verdict->bound1_m;
+    out->uncertainty2_m = verdict->bound2_m;
+    out->uncertainty_weakest1_m = verdict->weakest1_m;
+    out->uncertainty_weakest2_m = verdict->weakest2_m;
+    out->weakest_direction1 = verdict->direction1;
+    out->weakest_direction2 = verdict->direction2;
+    out->misfit = verdict->misfit;
+    out->progress1 = progress(verdict->bound1_m, self->cfg.max_bound_m);
+    out->progress2 = progress(verdict->bound2_m, self->cfg.max_bound_m);
+    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
+    if (complaint != JCAL_REASON_NONE) { /* a sensor that fails sends nothing that a judgement would follow */
+        out->status = JCAL_COLLECTING;
+        out->reason = complaint;
+        out->hint = JCAL_HINT_CHECK_SENSORS;
+    }
+}
+
+jcal_status_t jcal_center_get(const jcal_center_t *self, jcal_center_result_t *out)
+{
+    if ((self == NULL) || (out == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    jcal_center_result_t result = {0};
+    result.engine = JCAL_ENGINE_STREAM;
+    tell_verdict(self, &result);
+    result.has_center = self->has_point;
+    if (self->has_point) {
+        jcal_center_place_t place = self->sums.point.place;
+        shift_along_axis(&self->cfg, &place);
+        result.joint_to_sensor1_m = place.r1;
+        result.joint_to_sensor2_m = place.r2;
+        result.acc_bias1_m_s2 = self->sums.point.b1;
+        result.acc_bias2_m_s2 = self->sums.point.b2;
+    }
+    result.t_us = self->t_us;
+    result.samples = self->gate.samples;
+    for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
+        result.rejected_by[i] = self->gate.rejected_by[i];
+        result.rejected += self->gate.rejected_by[i];
+    }
+    *out = result;
+    return JCAL_OK;
+}

@@ -1,0 +1,289 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Bounds and status of the joint centre. See center_judge.h.
+#include "calib/center_judge.h"
+
+#include "calib/center_sums.h"
+#include "jointcal/vec3.h"
+#include "math/chol.h"
+#include "math/eig.h"
+#include "math/scalar.h"
+#include "math/sym.h"
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#define N JCAL_CENTER_UNKNOWNS
+
+/// 95 % of a Gaussian along a line.
+#define NORMAL_95 1.96f
+
+/// The share of the unexplained that may have shifted the estimate.
+#define HIDDEN_SHARE 0.5f
+
+/// Blocks from which the scatter says something, and what is taken from their number.
+#define BLOCKS_MIN 8.0f
+#define BLOCKS_LOST 4.0f
+
+/// Rows are wrong by this share of their length, misaligned gyroscopes and play of the joint: that much information in a direction is
+/// none. Perfect hinges leave their axis entirely open; on real ones it looks known to 0.03 to 0.07 of the best direction, against 0.2
+/// to 0.5 of the worst direction of other joints.
+#define ROW_ERROR 0.1f
+/// More than this share of a direction's information being none leaves it open: its variance grows by this, squared.
+#define FAKE_SHARE_MAX 0.8f
+#define OPEN 1e3f
+
+/// Residuals, squared, are never taken for less than this share of what the config calls usual.
+#define EXCESS_MIN 0.3f
+
+/// Judgements in a row that found nothing missing.
+#define AGREED_MIN 3u
+/// A bound may grow by this before ready is lost.
+#define HYSTERESIS 1.2f
+
+/// Mean squared rates below this are no motion to speak of, (rad/s)^2.
+#define TURN_MIN 0.1f
+
+/// Residuals, squared, over what the config calls usual.
+static float excess_of(const jcal_center_sums_t *sums)
+{
+    return jcal_max(sums->cost / jcal_max(sums->noise, FLT_MIN), EXCESS_MIN);
+}
+
+static bool factor(jcal_center_t *self)
+{
+    jcal_center_inverse_t *const inverse = &self->inverse;
+    float prior[N];
+    jcal_center_prior(&self->cfg, prior);
+    (void)memcpy(inverse->factor, self->sums.matrix, sizeof inverse->factor);
+    for (size_t i = 0u; i < N; ++i) {
+        inverse->factor[jcal_sym_at(i, i)] += prior[i];
+    }
+    return jcal_chol_factor_damped(inverse->factor, N, 0.0f, inverse->scale) == JCAL_OK;
+}
+
+static void column(jcal_center_inverse_t *inverse, size_t which)
+{
+    float *const x = inverse->columns[which];
+    (void)memset(x, 0, sizeof inverse->columns[which]);
+    x[which] = 1.0f;
+    jcal_chol_solve_scaled(inverse->factor, N, inverse->scale, x);
+}
+
+/// Covariances of the vector of one sensor (0 or 1).
+static void covariance(jcal_center_t *self, size_t sensor)
+{
+    jcal_center_inverse_t *const inverse = &self->inverse;
+    const jcal_center_sums_t *const sums = &self->sums;
+    const float excess = excess_of(sums);
+    const float few = sums->blocks / jcal_max(sums->blocks - BLOCKS_LOST, 1.0f);
+    float prior[N];
+    jcal_center_prior(&self->cfg, prior);
+    for (size_t i = 0u; i < 3u; ++i) {
+        const float *const x = inverse->columns[(3u * sensor) + i];
+        float spread[N]; /* (S + P) x */
+        jcal_sym_times(sums->scatter, N, x, spread);
+        for (size_t j = 0u; j <= i; ++j) {
+            const float *const y = inverse->columns[(3u * sensor) + j];
+            float from_scatter = 0.0f;
+            float from_prior = 0.0f;
+            for (size_t k = 0u; k < N; ++k) {
+                from_scatter += spread[k] * y[k];
+                from_prior += prior[k] * x[k] * y[k];
+            }
+            const size_t at = jcal_sym_at(i, j);
+            inverse->covariance[sensor][at] = (few * from_scatter) + from_prior;
+            inverse->least[sensor][at] = (excess * (x[(3u * sensor) + j] - from_prior)) + from_prior;
+        }
+    }
+}
+
+/// Takes the part along a unit vector out of a packed 3 x 3 covariance: C <- Q C Q, Q = I - n n'. A zero vector leaves it.
+static void across(float *c, jcal_vec3_t n)
+{
+    const float q[9] = {1.0f - (n.x * n.x), -n.x * n.y, -n.x * n.z, -n.x * n.y,        1.0f - (n.y * n.y),
+                        -n.y * n.z,         -n.x * n.z, -n.y * n.z, 1.0f - (n.z * n.z)};
+    float out[6];
+    jcal_sym_congruence(c, 3u, q, 3u, out);
+    (void)memcpy(c, out, sizeof out);
+}
+
+/// 95 % radius of a Gaussian with covariance c (3 x 3, packed).
+static float radius(const float *c)
+{
+    const float trace = c[0] + c[2] + c[5];
+    const float squares =
+        (c[0] * c[0]) + (c[2] * c[2]) + (c[5] * c[5]) + (2.0f * ((c[1] * c[1]) + (c[3] * c[3]) + (c[4] * c[4])));
+    return sqrtf(jcal_max(trace + (2.0f * sqrtf(2.0f * squares)), 0.0f));
+}
+
+/// Bounds of one sensor's vector.
+typedef struct {
+    float all, weakest, second;
+    jcal_vec3_t direction;
+} bounds_t;
+
+static bounds_t unknown_bounds(void)
+{
+    const bounds_t b = {JCAL_BOUND_UNKNOWN_M, JCAL_BOUND_UNKNOWN_M, JCAL_BOUND_UNKNOWN_M, {0.0f, 0.0f, 0.0f}};
+    return b;
+}
+
+static float bound(float radius_m, float hidden_m, float mismatch_m)
+{
+    return jcal_min(mismatch_m + sqrtf((radius_m * radius_m) + (hidden_m * hidden_m)), JCAL_BOUND_UNKNOWN_M);
+}
+
+/// Sum of the squared derivatives by r1 and r2, half of it.
+static float row_power(const jcal_center_sums_t *sums)
+{
+    float sum = 0.0f;
+    for (size_t i = 0u; i < 6u; ++i) {
+        sum += sums->matrix[jcal_sym_at(i, i)];
+    }
+    return 0.5f * sum;
+}
+
+/// Takes information that wrong rows may have made out of a covariance c (3 x 3, packed) of one sensor's vector.
+static bool deflate(const jcal_center_t *self, size_t sensor, float *c)
+{
+    float own[6];
+    float values[3];
+    float n[9];
+    for (size_t i = 0u; i < 3u; ++i) {
+        for (size_t j = 0u; j <= i; ++j) {
+            own[jcal_sym_at(i, j)] = self->inverse.columns[(3u * sensor) + i][(3u * sensor) + j];
+        }
+    }
+    if (jcal_eig_symmetric(own, 3u, values, n) != JCAL_OK) {
+        return false;
+    }
+    const float fake = ROW_ERROR * ROW_ERROR * row_power(&self->sums);
+    float t[9] = {0.0f};
+    for (size_t k = 0u; k < 3u; ++k) {
+        const float share = fake * values[k];
+        const float grow = (share < FAKE_SHARE_MAX) ? (1.0f / (1.0f - share)) : OPEN;
+        for (size_t i = 0u; i < 9u; ++i) {
+            t[i] += grow * n[(3u * k) + (i / 3u)] * n[(3u * k) + (i % 3u)];
+        }
+    }
+    float out[6];
+    jcal_sym_congruence(c, 3u, t, 3u, out);
+    (void)memcpy(c, out, sizeof out);
+    return true;
+}
+
+static bounds_t bounds_of(const jcal_center_t *self, size_t sensor, float hidden_m)
+{
+    const float *const scatter = self->inverse.covariance[sensor];
+    const float *const matrix = self->inverse.least[sensor];
+    float larger[6];
+    (void)memcpy(larger, (radius(scatter) > radius(matrix)) ? scatter : matrix, sizeof larger);
+    float values[3];
+    float vectors[9];
+    bounds_t b = unknown_bounds();
+    if (!deflate(self, sensor, larger) || (jcal_eig_symmetric(larger, 3u, values, vectors) != JCAL_OK)) {
+        return b;
+    }
+    const float mismatch_m = self->cfg.mismatch_m;
+    b.direction = jcal_vec3(vectors[0], vectors[1], vectors[2]);
+    b.weakest = bound(NORMAL_95 * sqrtf(jcal_max(values[0], 0.0f)), hidden_m, mismatch_m);
+    b.second = bound(NORMAL_95 * sqrtf(jcal_max(values[1], 0.0f)), hidden_m, mismatch_m);
+    across(larger, (sensor == 0u) ? self->cfg.hinge_axis1 : self->cfg.hinge_axis2);
+    b.all = bound(radius(larger), hidden_m, mismatch_m);
+    return b;
+}
+
+/// What is missing, if anything; the most important first.
+static void name_what_is_missing(jcal_center_t *self, const bounds_t *b, float hidden_m)
+{
+    jcal_center_verdict_t *const verdict = &self->verdict;
+    const jcal_center_sums_t *const sums = &self->sums;
+    const float limit = self->cfg.max_bound_m * ((verdict->status == (uint8_t)JCAL_READY) ? HYSTERESIS : 1.0f);
+    const unsigned worse = (b[1].all > b[0].all) ? 1u : 0u;
+    const float still = TURN_MIN * sums->time_s;
+    verdict->weak = (uint8_t)JCAL_WEAK_NONE;
+    verdict->hint = (uint8_t)JCAL_HINT_NONE;
+    verdict->reason = (uint8_t)JCAL_REASON_NONE;
+    if (b[worse].all <= limit) {
+        return;
+    }
+    verdict->weak = (uint8_t)((worse == 1u) ? JCAL_WEAK_CENTER2 : JCAL_WEAK_CENTER1);
+    verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+    if ((sums->turn1 < still) || (sums->turn2 < still)) {
+        verdict->reason = (uint8_t)JCAL_REASON_NO_MOTION;
+        verdict->hint = (uint8_t)((sums->turn1 < sums->turn2) ? JCAL_HINT_MOVE_SEGMENT1 : JCAL_HINT_MOVE_SEGMENT2);
+    } else if (bound(0.0f, hidden_m, self->cfg.mismatch_m) > limit) {
+        verdict->reason = (uint8_t)JCAL_REASON_DOES_NOT_FIT;
+        verdict->hint = (uint8_t)JCAL_HINT_CHECK_SENSORS;
+    } else if (b[worse].second > limit) {
+        verdict->hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+    } else {
+        verdict->hint = (uint8_t)JCAL_HINT_MORE_DIRECTIONS;
+    }
+}
+
+static void judge(jcal_center_t *self)
+{
+    jcal_center_verdict_t *const verdict = &self->verdict;
+    const jcal_center_sums_t *const sums = &self->sums;
+    const jcal_center_place_t *const place = &sums->point.place;
+    const float unexplained = jcal_max(sums->cost - sums->noise, 0.0f);
+    verdict->misfit = sqrtf(jcal_min(unexplained / jcal_max(sums->effect, FLT_MIN), 1.0f));
+    const float length = sqrtf(jcal_max(jcal_vec3_dot(place->r1, place->r1), jcal_vec3_dot(place->r2, place->r2)));
+    const float hidden_m = HIDDEN_SHARE * verdict->misfit * length;
+    const bool enough = sums->blocks >= BLOCKS_MIN;
+    const bounds_t b[2] = {enough ? bounds_of(self, 0u, hidden_m) : unknown_bounds(),
+                           enough ? bounds_of(self, 1u, hidden_m) : unknown_bounds()};
+    name_what_is_missing(self, b, hidden_m);
+    verdict->bound1_m = b[0].all;
+    verdict->bound2_m = b[1].all;
+    verdict->weakest1_m = b[0].weakest;
+    verdict->weakest2_m = b[1].weakest;
+    verdict->direction1 = b[0].direction;
+    verdict->direction2 = b[1].direction;
+    if (verdict->reason != (uint8_t)JCAL_REASON_NONE) {
+        verdict->agreed = 0u;
+        if (verdict->status != (uint8_t)JCAL_MOVED) {
+            verdict->status = (uint8_t)JCAL_COLLECTING;
+        }
+        return;
+    }
+    verdict->agreed = (uint8_t)((verdict->agreed < AGREED_MIN) ? (verdict->agreed + 1u) : AGREED_MIN);
+    if (verdict->agreed >= AGREED_MIN) {
+        verdict->status = (uint8_t)JCAL_READY;
+    } else if (verdict->status != (uint8_t)JCAL_READY) {
+        verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+    } else {
+        /* stays ready */
+    }
+}
+
+bool jcal_center_judge(jcal_center_t *self, unsigned slice)
+{
+    if (slice == 0u) {
+        return factor(self);
+    }
+    if (slice <= 6u) {
+        column(&self->inverse, slice - 1u);
+    } else if (slice <= 8u) {
+        covariance(self, slice - 7u);
+    } else {
+        judge(self);
+    }
+    return true;
+}
+
+void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_t status)
+{
+    (void)memset(verdict, 0, sizeof *verdict);
+    verdict->bound1_m = JCAL_BOUND_UNKNOWN_M;
+    verdict->bound2_m = JCAL_BOUND_UNKNOWN_M;
+    verdict->weakest1_m = JCAL_BOUND_UNKNOWN_M;
+    verdict->weakest2_m = JCAL_BOUND_UNKNOWN_M;
+    verdict->status = (uint8_t)status;
+    verdict->reason = (uint8_t)JCAL_REASON_NO_DATA;
+    verdict->hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+}

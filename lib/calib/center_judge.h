@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Bounds and status of the joint centre. Private.
+///
+/// With H the matrix of the sums, prior P included, and S the scatter of their gradient over blocks of time, the covariance of the
+/// estimate is H^-1 (S + P) H^-1; never less than H^-1 with the residuals' own size. A 95 % radius in space comes from mean and
+/// variance of the squared error: tr C + 2 sqrt(2 tr C^2), which is exact to 2 % from one to three equal directions. To it is
+/// added, as squares, what could hide in what is left unexplained: errors of the model that move with the motion, like soft tissue,
+/// shift the estimate by about their share of the effect that is seen.
+#ifndef JCAL_CENTER_JUDGE_H
+#define JCAL_CENTER_JUDGE_H
+
+#include "jointcal/center.h"
+
+/// Slices of the work: the factor, six columns of the inverse, two covariances, the verdict.
+#define JCAL_CENTER_JUDGE_SLICES 10u
+
+/// Does slice `slice` of the work on bounds and status. Slice 0 may fail: then the slices after it have nothing to do.
+///
+/// Cost: at most about 900 multiply-adds.
+bool jcal_center_judge(jcal_center_t *self, unsigned slice);
+
+/// Bounds and status before there is an estimate.
+void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_t status);
+
+#endif /* JCAL_CENTER_JUDGE_H */

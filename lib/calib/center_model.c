@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Residual and features of the joint centre. Equations: center_model.h.
+#include "calib/center_model.h"
+
+#include "jointcal/vec3.h"
+#include "math/sym.h"
+
+#include <stddef.h>
+
+/// Least |a - K r| that has a direction, m/s^2.
+#define FORCE_MIN 0.5f
+
+/// Features of one body: 1, r, r r'.
+#define OWN 9u
+
+/* The 9 features of sign |a - K r|^2 that are not constant. */
+static void own_features(const jcal_body_t *body, float sign, float *f)
+{
+    jcal_vec3_t k[3];
+    jcal_body_matrix(body, k);
+    for (size_t i = 0u; i < 3u; ++i) {
+        f[i] = -2.0f * sign * jcal_vec3_dot(k[i], body->a);
+    }
+    for (size_t i = 0u; i < 3u; ++i) {
+        for (size_t j = 0u; j <= i; ++j) {
+            f[3u + jcal_sym_at(i, j)] = ((i == j) ? 1.0f : 2.0f) * sign * jcal_vec3_dot(k[i], k[j]);
+        }
+    }
+}
+
+void jcal_center_features(const jcal_kinematic_t *sample, float *f)
+{
+    f[0] = jcal_vec3_dot(sample->body1.a, sample->body1.a) - jcal_vec3_dot(sample->body2.a, sample->body2.a);
+    own_features(&sample->body1, 1.0f, &f[1]);
+    own_features(&sample->body2, -1.0f, &f[1u + OWN]);
+}
+
+static void own_monomials(jcal_vec3_t r, float *phi)
+{
+    phi[0] = r.x;
+    phi[1] = r.y;
+    phi[2] = r.z;
+    phi[3] = r.x * r.x;
+    phi[4] = r.x * r.y;
+    phi[5] = r.y * r.y;
+    phi[6] = r.x * r.z;
+    phi[7] = r.y * r.z;
+    phi[8] = r.z * r.z;
+}
+
+void jcal_center_monomials(const jcal_center_place_t *place, float *phi)
+{
+    phi[0] = 1.0f;
+    own_monomials(place->r1, &phi[1]);
+    own_monomials(place->r2, &phi[1u + OWN]);
+}
+
+/// One element of a sparse derivative of phi.
+typedef struct {
+    uint8_t at;   ///< Which monomial of the body.
+    uint8_t by;   ///< Its derivative: the component of r ...
+    float times;  ///< ... this often; with by = 3, one.
+} slope_t;
+
+/// d phi / d r_x, r_y, r_z of one body: four elements each.
+static const slope_t slopes[3][4] = {{{0u, 3u, 1.0f}, {3u, 0u, 2.0f}, {4u, 1u, 1.0f}, {6u, 2u, 1.0f}},
+                                     {{1u, 3u, 1.0f}, {4u, 0u, 1.0f}, {5u, 1u, 2.0f}, {7u, 2u, 1.0f}},
+                                     {{2u, 3u, 1.0f}, {6u, 0u, 1.0f}, {7u, 1u, 1.0f}, {8u, 2u, 2.0f}}};
+
+/* d phi / d unknown, as places in phi and values, four each. */
+static void slope_of(const jcal_center_place_t *place, size_t unknown, size_t *at, float *value)
+{
+    const jcal_vec3_t r = (unknown < 3u) ? place->r1 : place->r2;
+    const float components[4] = {r.x, r.y, r.z, 1.0f};
+    const size_t first = (unknown < 3u) ? 1u : (1u + OWN);
+    const slope_t *const slope = slopes[unknown % 3u];
+    for (size_t i = 0u; i < 4u; ++i) {
+        at[i] = first + slope[i].at;
+        value[i] = slope[i].times * components[slope[i].by];
+    }
+}
+
+float jcal_center_form(const float *moments, const jcal_center_place_t *place, float *gradient, float *matrix)
+{
+    size_t at[JCAL_CENTER_PLACE_UNKNOWNS][4];
+    float value[JCAL_CENTER_PLACE_UNKNOWNS][4];
+    float phi[JCAL_CENTER_FEATURES];
+    float on[JCAL_CENTER_FEATURES]; /* M phi, then M dphi */
+    jcal_center_monomials(place, phi);
+    jcal_sym_times(moments, JCAL_CENTER_FEATURES, phi, on);
+    float cost = 0.0f;
+    for (size_t i = 0u; i < JCAL_CENTER_FEATURES; ++i) {
+        cost += phi[i] * on[i];
+    }
+    for (size_t i = 0u; i < JCAL_CENTER_PLACE_UNKNOWNS; ++i) {
+        slope_of(place, i, at[i], value[i]);
+        gradient[i] = 0.0f;
+        for (size_t k = 0u; k < 4u; ++k) {
+            gradient[i] += value[i][k] * on[at[i][k]];
+        }
+    }
+    for (size_t i = 0u; i < JCAL_CENTER_PLACE_UNKNOWNS; ++i) {
+        for (size_t j = 0u; j <= i; ++j) {
+            float sum = 0.0f;
+            for (size_t k = 0u; k < 4u; ++k) {
+                for (size_t l = 0u; l < 4u; ++l) {
+                    sum += value[i][k] * value[j][l] * moments[jcal_sym_at(at[i][k], at[j][l])];
+                }
+            }
+            matrix[jcal_sym_at(i, j)] = sum;
+        }
+    }
+    return cost;
+}
+
+/* sign times the derivatives of |a - b - K r| by r and b, along its direction. */
+static void own_row(const jcal_body_t *body, jcal_vec3_t along, float *by_r, float *by_b)
+{
+    jcal_vec3_t k[3];
+    jcal_body_matrix(body, k);
+    by_r[0] = -jcal_vec3_dot(k[0], along);
+    by_r[1] = -jcal_vec3_dot(k[1], along);
+    by_r[2] = -jcal_vec3_dot(k[2], along);
+    by_b[0] = -along.x;
+    by_b[1] = -along.y;
+    by_b[2] = -along.z;
+}
+
+bool jcal_center_residual(const jcal_kinematic_t *sample, const jcal_center_point_t *point, jcal_center_residual_t *out)
+{
+    const jcal_vec3_t a1 = jcal_vec3_sub(sample->body1.a, point->b1);
+    const jcal_vec3_t a2 = jcal_vec3_sub(sample->body2.a, point->b2);
+    const jcal_vec3_t turn1 = jcal_body_times(&sample->body1, point->place.r1);
+    const jcal_vec3_t turn2 = jcal_body_times(&sample->body2, point->place.r2);
+    const jcal_vec3_t v1 = jcal_vec3_sub(a1, turn1);
+    const jcal_vec3_t v2 = jcal_vec3_sub(a2, turn2);
+    const float n1 = jcal_vec3_norm(v1);
+    const float n2 = jcal_vec3_norm(v2);
+    if (!((n1 > FORCE_MIN) && (n2 > FORCE_MIN))) {
+        return false;
+    }
+    own_row(&sample->body1, jcal_vec3_scale(v1, 1.0f / n1), &out->row[0], &out->row[6]);
+    own_row(&sample->body2, jcal_vec3_scale(v2, -1.0f / n2), &out->row[3], &out->row[9]);
+    out->e = n1 - n2;
+    out->e_apart = jcal_vec3_norm(a1) - jcal_vec3_norm(a2);
+    out->turn2 = jcal_vec3_dot(turn1, turn1) + jcal_vec3_dot(turn2, turn2);
+    return true;
+}

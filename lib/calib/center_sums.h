@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Sums of the joint centre's residual at the estimate, biases included. Private.
+///
+/// Rows are linearised where the estimate is when their sample comes in: with the estimate within centimetres of the truth the row
+/// changes by a few percent. Matrix, gradient, cost and the scatter of the gradient over blocks of time move with the estimate by
+/// the quadratic model. Biases have a Gaussian prior, positions one of a metre, so that the matrix always has an inverse.
+#ifndef JCAL_CENTER_SUMS_H
+#define JCAL_CENTER_SUMS_H
+
+#include "calib/center_model.h"
+
+/// Residuals of this time are taken to agree by chance, s: one reading.
+#define JCAL_CENTER_READING_S 0.1f
+
+/// Length of a block, s.
+#define JCAL_CENTER_BLOCK_S 0.5f
+
+/// Begins at a place; biases unknown, zero.
+void jcal_center_sums_begin(jcal_center_sums_t *self, const jcal_center_place_t *place);
+
+/// Variance that the config calls usual for a residual, (m/s^2)^2.
+float jcal_center_variance(const jcal_center_config_t *cfg, const jcal_center_residual_t *residual);
+
+/// Takes in a sample's residual at the estimate.
+void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *cfg,
+                          const jcal_center_residual_t *residual, const jcal_kinematic_t *sample);
+
+/// The prior's information on each unknown (12), 1 / variance; in units of the sums.
+void jcal_center_prior(const jcal_center_config_t *cfg, float *prior);
+
+/// Half the gradient at the estimate, prior included (12).
+void jcal_center_sums_gradient(const jcal_center_sums_t *self, const float *prior, float *gradient);
+
+/// Moves the estimate by d (12) and all sums with it.
+void jcal_center_sums_move(jcal_center_sums_t *self, const float *d);
+
+/// Halves what the sums weigh.
+void jcal_center_sums_halve(jcal_center_sums_t *self);
+
+#endif /* JCAL_CENTER_SUMS_H */
