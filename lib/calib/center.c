@@ -25,9 +25,9 @@
 /// A step of the start shorter than this has arrived, m, and the longest one.
 #define ARRIVED_M 0.01f
 #define STEP_MAX_M 0.3f
-/// The estimate may move this far from where the sums began, m. If more data than that of SETTLED_S want it further away, the sums
-/// begin anew where they want it.
-#define ANCHOR_M 0.03f
+/// The estimate may move from where the sums began as far as changes |a - K r| by this, rms: a few percent of gravity, by which rows
+/// turn. If more data than that of SETTLED_S want it further away, the sums begin anew where they want it.
+#define LINEAR_M_S2 0.5f
 #define SETTLED_S 4.0f
 /// Sums are halved beyond this, s: accelerometers' biases wander.
 #define MEMORY_S 300.0f
@@ -266,8 +266,9 @@ static void step_point(jcal_center_t *self)
     jcal_center_place_t to = self->sums.point.place;
     to.r1 = jcal_vec3_add(to.r1, jcal_vec3(d[0], d[1], d[2]));
     to.r2 = jcal_vec3_add(to.r2, jcal_vec3(d[3], d[4], d[5]));
-    const float from_anchor = apart(&to, &self->sums.anchor);
-    if (!(from_anchor > ANCHOR_M)) {
+    const float way = apart(&to, &self->sums.anchor);
+    const float limit = LINEAR_M_S2 * LINEAR_M_S2 * self->sums.weight;
+    if (!((way * way * jcal_center_row_power(&self->sums)) > limit)) {
         jcal_center_sums_move(&self->sums, d);
     } else if (self->sums.time_s > SETTLED_S) {
         jcal_center_sums_begin(&self->sums, &to);

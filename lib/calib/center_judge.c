@@ -20,7 +20,7 @@
 /// 95 % of a Gaussian along a line.
 #define NORMAL_95 1.96f
 
-/// The share of the unexplained that may have shifted the estimate.
+/// The share of what remains unexplained and lasts that may have shifted the estimate.
 #define HIDDEN_SHARE 0.5f
 
 /// Blocks from which the scatter says something, and what is taken from their number.
@@ -78,7 +78,8 @@ static void covariance(jcal_center_t *self, size_t sensor)
     jcal_center_inverse_t *const inverse = &self->inverse;
     const jcal_center_sums_t *const sums = &self->sums;
     const float excess = excess_of(sums);
-    const float few = sums->blocks / jcal_max(sums->blocks - BLOCKS_LOST, 1.0f);
+    const float counted = jcal_max(sums->blocks - BLOCKS_LOST, 1.0f) * JCAL_CENTER_BLOCK_S;
+    const float few = jcal_max(sums->time_s / counted, 1.0f);
     float prior[N];
     jcal_center_prior(&self->cfg, prior);
     for (size_t i = 0u; i < 3u; ++i) {
@@ -136,16 +137,6 @@ static float bound(float radius_m, float hidden_m, float mismatch_m)
     return jcal_min(mismatch_m + sqrtf((radius_m * radius_m) + (hidden_m * hidden_m)), JCAL_BOUND_UNKNOWN_M);
 }
 
-/// Sum of the squared derivatives by r1 and r2, half of it.
-static float row_power(const jcal_center_sums_t *sums)
-{
-    float sum = 0.0f;
-    for (size_t i = 0u; i < 6u; ++i) {
-        sum += sums->matrix[jcal_sym_at(i, i)];
-    }
-    return 0.5f * sum;
-}
-
 /// Takes information that wrong rows may have made out of a covariance c (3 x 3, packed) of one sensor's vector.
 static bool deflate(const jcal_center_t *self, size_t sensor, float *c)
 {
@@ -160,7 +151,7 @@ static bool deflate(const jcal_center_t *self, size_t sensor, float *c)
     if (jcal_eig_symmetric(own, 3u, values, n) != JCAL_OK) {
         return false;
     }
-    const float fake = ROW_ERROR * ROW_ERROR * row_power(&self->sums);
+    const float fake = ROW_ERROR * ROW_ERROR * jcal_center_row_power(&self->sums);
     float t[9] = {0.0f};
     for (size_t k = 0u; k < 3u; ++k) {
         const float share = fake * values[k];
@@ -230,10 +221,11 @@ static void judge(jcal_center_t *self)
     jcal_center_verdict_t *const verdict = &self->verdict;
     const jcal_center_sums_t *const sums = &self->sums;
     const jcal_center_place_t *const place = &sums->point.place;
-    const float unexplained = jcal_max(sums->cost - sums->noise, 0.0f);
-    verdict->misfit = sqrtf(jcal_min(unexplained / jcal_max(sums->effect, FLT_MIN), 1.0f));
+    const float share = jcal_min(sums->cost / jcal_max(sums->effect, FLT_MIN), 1.0f);
+    const float lasting = jcal_min(jcal_max(sums->lagged, 0.0f) / jcal_max(sums->raw, FLT_MIN), 1.0f);
+    verdict->misfit = sqrtf(share);
     const float length = sqrtf(jcal_max(jcal_vec3_dot(place->r1, place->r1), jcal_vec3_dot(place->r2, place->r2)));
-    const float hidden_m = HIDDEN_SHARE * verdict->misfit * length;
+    const float hidden_m = ((HIDDEN_SHARE * sqrtf(share * lasting)) + share) * length;
     const bool enough = sums->blocks >= BLOCKS_MIN;
     const bounds_t b[2] = {enough ? bounds_of(self, 0u, hidden_m) : unknown_bounds(),
                            enough ? bounds_of(self, 1u, hidden_m) : unknown_bounds()};

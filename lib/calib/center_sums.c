@@ -7,6 +7,7 @@
 #include "math/scalar.h"
 #include "math/sym.h"
 
+#include <float.h>
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
@@ -14,9 +15,13 @@
 #define N JCAL_CENTER_UNKNOWNS
 
 /// Standard deviation of each component of r before any data, m.
-#define REACH_M 1.0f
+#define REACH_M 0.3f
 /// Standard deviation of a bias that is not estimated, m/s^2.
 #define NO_BIAS 1e-4f
+/// A step that changes the cost by this many times its variance is more than what blocks can be moved by.
+#define LARGE_STEP 50.0f
+/// Samples after which what sensors' noise left in a residual is forgotten: the derivative's taps meet no more.
+#define LAG 4u
 
 void jcal_center_sums_begin(jcal_center_sums_t *self, const jcal_center_place_t *place)
 {
@@ -34,6 +39,9 @@ float jcal_center_variance(const jcal_center_config_t *cfg, const jcal_center_re
 static void close_block(jcal_center_sums_t *self)
 {
     jcal_sym_rank1(self->scatter, N, self->block, 1.0f);
+    for (size_t i = 0u; i < N; ++i) {
+        self->closed[i] += self->block[i];
+    }
     (void)memset(self->block, 0, sizeof self->block);
     self->block_s = 0.0f;
     self->blocks += 1.0f;
@@ -61,6 +69,13 @@ void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *
     self->cost += pull * residual->e;
     self->effect += weight * residual->e_apart * residual->e_apart;
     self->noise += readings;
+    self->weight += weight;
+    self->raw += pull * residual->e;
+    self->lagged += pull * self->recent[0];
+    for (size_t i = 0u; i + 1u < LAG; ++i) {
+        self->recent[i] = self->recent[i + 1u];
+    }
+    self->recent[LAG - 1u] = residual->e;
     self->time_s += dt_s;
     self->turn1 += dt_s * jcal_body_rate2(&sample->body1);
     self->turn2 += dt_s * jcal_body_rate2(&sample->body2);
@@ -103,28 +118,54 @@ static jcal_vec3_t moved(jcal_vec3_t v, const float *d)
     return jcal_vec3(v.x + d[0], v.y + d[1], v.z + d[2]);
 }
 
-void jcal_center_sums_move(jcal_center_sums_t *self, const float *d)
+/// Moves the scatter's blocks, taken to be alike: by `on`, their share of what the whole gradient changes by.
+static void move_blocks(jcal_center_sums_t *self, const float *on)
 {
-    float on[N]; /* H d: what each gradient changes by, in all */
-    jcal_sym_times(self->matrix, N, d, on);
-    const float per_block = (self->blocks > 0.0f) ? (1.0f / self->blocks) : 0.0f;
-    const float open = (self->time_s > 0.0f) ? (self->block_s / self->time_s) : 0.0f;
-    float closed[N]; /* sum of the gradients s of the closed blocks ... */
-    float by[N];     /* ... and what it changes by */
-    for (size_t i = 0u; i < N; ++i) {
-        self->cost += d[i] * ((2.0f * self->gradient[i]) + on[i]);
-        closed[i] = self->gradient[i] - self->block[i];
-        by[i] = (1.0f - open) * on[i];
-    }
-    self->cost = jcal_max(self->cost, 0.0f);
+    const float share = self->blocks * JCAL_CENTER_BLOCK_S / jcal_max(self->time_s, JCAL_CENTER_BLOCK_S);
+    const float each = share * share / self->blocks;
+    const float mixed = share / self->blocks;
     size_t k = 0u;
     for (size_t i = 0u; i < N; ++i) {
         for (size_t j = 0u; j <= i; ++j) {
-            /* blocks taken to be alike: the sum of (s + by / n) (s + by / n)' */
-            self->scatter[k] += per_block * ((closed[i] * by[j]) + (by[i] * closed[j]) + (by[i] * by[j]));
+            /* the sum of (s + share on / n) (s + share on / n)', with sum of s = closed */
+            self->scatter[k] +=
+                (mixed * ((self->closed[i] * on[j]) + (on[i] * self->closed[j]))) + (each * on[i] * on[j]);
             ++k;
         }
     }
+    for (size_t i = 0u; i < N; ++i) {
+        self->closed[i] += share * on[i];
+    }
+}
+
+/// Begins the scatter anew: its blocks do not fit the estimate any more.
+static void begin_blocks(jcal_center_sums_t *self)
+{
+    (void)memset(self->scatter, 0, sizeof self->scatter);
+    (void)memset(self->closed, 0, sizeof self->closed);
+    (void)memset(self->block, 0, sizeof self->block);
+    self->block_s = 0.0f;
+    self->blocks = 0.0f;
+}
+
+void jcal_center_sums_move(jcal_center_sums_t *self, const float *d)
+{
+    float on[N]; /* H d: what the gradient changes by */
+    jcal_sym_times(self->matrix, N, d, on);
+    float gain = 0.0f; /* d' H d */
+    for (size_t i = 0u; i < N; ++i) {
+        self->cost += 2.0f * d[i] * self->gradient[i];
+        gain += d[i] * on[i];
+    }
+    self->cost = jcal_max(self->cost + gain, 0.0f);
+    if ((gain * self->noise) > (LARGE_STEP * jcal_max(self->cost, self->noise))) {
+        begin_blocks(self);
+    } else if (self->blocks > 0.0f) {
+        move_blocks(self, on);
+    } else {
+        /* nothing to move */
+    }
+    const float open = self->block_s / jcal_max(self->time_s, FLT_MIN);
     for (size_t i = 0u; i < N; ++i) {
         self->gradient[i] += on[i];
         self->block[i] += open * on[i];
@@ -135,17 +176,30 @@ void jcal_center_sums_move(jcal_center_sums_t *self, const float *d)
     self->point.b2 = moved(self->point.b2, &d[9]);
 }
 
+float jcal_center_row_power(const jcal_center_sums_t *self)
+{
+    float sum = 0.0f;
+    for (size_t i = 0u; i < 6u; ++i) {
+        sum += self->matrix[jcal_sym_at(i, i)];
+    }
+    return 0.5f * sum;
+}
+
 void jcal_center_sums_halve(jcal_center_sums_t *self)
 {
     jcal_sym_scale(self->matrix, N, 0.5f);
     jcal_sym_scale(self->scatter, N, 0.5f);
     for (size_t i = 0u; i < N; ++i) {
         self->gradient[i] *= 0.5f;
+        self->closed[i] *= 0.5f;
     }
     self->blocks *= 0.5f;
     self->cost *= 0.5f;
     self->effect *= 0.5f;
     self->noise *= 0.5f;
+    self->weight *= 0.5f;
+    self->raw *= 0.5f;
+    self->lagged *= 0.5f;
     self->time_s *= 0.5f;
     self->turn1 *= 0.5f;
     self->turn2 *= 0.5f;
