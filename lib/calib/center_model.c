@@ -17,8 +17,7 @@
 /* The 9 features of sign |a - K r|^2 that are not constant. */
 static void own_features(const jcal_body_t *body, float sign, float *f)
 {
-    jcal_vec3_t k[3];
-    jcal_body_matrix(body, k);
+    const jcal_vec3_t *const k = body->k;
     for (size_t i = 0u; i < 3u; ++i) {
         f[i] = -2.0f * sign * jcal_vec3_dot(k[i], body->a);
     }
@@ -117,8 +116,7 @@ float jcal_center_form(const float *moments, const jcal_center_place_t *place, f
 /* sign times the derivatives of |a - b - K r| by r and b, along its direction. */
 static void own_row(const jcal_body_t *body, jcal_vec3_t along, float *by_r, float *by_b)
 {
-    jcal_vec3_t k[3];
-    jcal_body_matrix(body, k);
+    const jcal_vec3_t *const k = body->k;
     by_r[0] = -jcal_vec3_dot(k[0], along);
     by_r[1] = -jcal_vec3_dot(k[1], along);
     by_r[2] = -jcal_vec3_dot(k[2], along);

@@ -77,8 +77,8 @@ void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *
     }
     self->recent[LAG - 1u] = residual->e;
     self->time_s += dt_s;
-    self->turn1 += dt_s * jcal_body_rate2(&sample->body1);
-    self->turn2 += dt_s * jcal_body_rate2(&sample->body2);
+    self->turn1 += dt_s * sample->body1.rate2;
+    self->turn2 += dt_s * sample->body2.rate2;
     self->block_s += dt_s;
     if (self->block_s >= JCAL_CENTER_BLOCK_S) {
         close_block(self);

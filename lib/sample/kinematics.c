@@ -64,68 +64,67 @@ static jcal_vec3_t turned(jcal_vec3_t v, jcal_vec3_t turn)
     return jcal_vec3_add(v, jcal_vec3_scale(on, 2.0f / (1.0f + jcal_vec3_dot(t, t))));
 }
 
-/// ww <- ww + share w w'.
-static void add_square(float *ww, jcal_vec3_t w, float share)
+/// The columns of K.
+static void fill_columns(jcal_vec3_t w, jcal_vec3_t dw, jcal_vec3_t *k)
 {
-    ww[0] += share * w.x * w.x;
-    ww[1] += share * w.x * w.y;
-    ww[2] += share * w.y * w.y;
-    ww[3] += share * w.x * w.z;
-    ww[4] += share * w.y * w.z;
-    ww[5] += share * w.z * w.z;
+    const float square = jcal_vec3_dot(w, w);
+    k[0] = jcal_vec3((w.x * w.x) - square, (w.x * w.y) + dw.z, (w.x * w.z) - dw.y);
+    k[1] = jcal_vec3((w.x * w.y) - dw.z, (w.y * w.y) - square, (w.y * w.z) + dw.x);
+    k[2] = jcal_vec3((w.x * w.z) + dw.y, (w.y * w.z) - dw.x, (w.z * w.z) - square);
 }
 
-/// far (w+3 - w-3) + wide (w+2 - w-2) + near (w+1 - w-1), over the distance of the bins.
-static jcal_vec3_t slope(const jcal_kinematics_t *self, unsigned sensor, const float *taps, float per_s)
+/// What one sensor says in the bin `place`, by a quotient near (w+1 - w-1) + far (w+2 - w-2).
+static jcal_body_t body_at(const jcal_kinematics_t *self, unsigned sensor, size_t place, jcal_plane_t per_s)
 {
-    jcal_vec3_t sum = {0.0f, 0.0f, 0.0f};
-    for (size_t k = 1u; k <= MIDDLE; ++k) {
-        const jcal_vec3_t after = reading(self, sensor, MIDDLE + k)->gyr_rad_s;
-        const jcal_vec3_t before = reading(self, sensor, MIDDLE - k)->gyr_rad_s;
-        sum = jcal_vec3_add(sum, jcal_vec3_scale(jcal_vec3_sub(after, before), taps[k - 1u] * per_s));
+    const jcal_imu_t *const at = reading(self, sensor, place);
+    const jcal_vec3_t near = jcal_vec3_sub(reading(self, sensor, place + 1u)->gyr_rad_s,
+                                           reading(self, sensor, place - 1u)->gyr_rad_s);
+    const jcal_vec3_t far = jcal_vec3_sub(reading(self, sensor, place + 2u)->gyr_rad_s,
+                                          reading(self, sensor, place - 2u)->gyr_rad_s);
+    jcal_body_t body;
+    body.a = at->acc_m_s2;
+    body.rate2 = jcal_vec3_dot(at->gyr_rad_s, at->gyr_rad_s);
+    fill_columns(at->gyr_rad_s, jcal_vec3_add(jcal_vec3_scale(near, per_s.re), jcal_vec3_scale(far, per_s.im)),
+                 body.k);
+    return body;
+}
+
+/// sum <- (sum + body turned by `turn`) / 2.
+static void blend(jcal_body_t *sum, const jcal_body_t *body, jcal_vec3_t turn)
+{
+    sum->a = jcal_vec3_scale(jcal_vec3_add(sum->a, turned(body->a, turn)), 0.5f);
+    for (size_t i = 0u; i < 3u; ++i) {
+        sum->k[i] = jcal_vec3_scale(jcal_vec3_add(sum->k[i], turned(body->k[i], turn)), 0.5f);
     }
-    return sum;
 }
 
-static void smoothed(const jcal_kinematics_t *self, unsigned sensor, float spacing_s, jcal_body_t *body)
+/// (1, 2, 1)/4 over the middle and its neighbours: the mean of the means with either neighbour.
+static jcal_body_t smoothed(const jcal_kinematics_t *self, unsigned sensor, jcal_plane_t per_s, float spacing_s)
 {
-    static const float taps[] = {15.0f / 48.0f, 6.0f / 48.0f,
-                                 -1.0f / 48.0f}; /* five-point quotient times (1, 2, 1)/4 */
-    const jcal_imu_t *const at = reading(self, sensor, MIDDLE);
-    const jcal_imu_t *const before = reading(self, sensor, MIDDLE - 1u);
-    const jcal_imu_t *const after = reading(self, sensor, MIDDLE + 1u);
-    body->dw = slope(self, sensor, taps, 1.0f / spacing_s);
-    add_square(body->ww, at->gyr_rad_s, 0.5f);
-    add_square(body->ww, before->gyr_rad_s, 0.25f);
-    add_square(body->ww, after->gyr_rad_s, 0.25f);
-    const float half_s = 0.5f * spacing_s;
-    const jcal_vec3_t to_after = jcal_vec3_scale(jcal_vec3_add(at->gyr_rad_s, after->gyr_rad_s), half_s);
-    const jcal_vec3_t to_before = jcal_vec3_scale(jcal_vec3_add(at->gyr_rad_s, before->gyr_rad_s), -half_s);
-    const jcal_vec3_t sides = jcal_vec3_add(turned(after->acc_m_s2, to_after), turned(before->acc_m_s2, to_before));
-    body->a = jcal_vec3_add(jcal_vec3_scale(at->acc_m_s2, 0.5f), jcal_vec3_scale(sides, 0.25f));
-}
-
-static void plain(const jcal_kinematics_t *self, unsigned sensor, const float *taps, float spacing_s, jcal_body_t *body)
-{
-    const jcal_imu_t *const at = reading(self, sensor, MIDDLE);
-    body->dw = slope(self, sensor, taps, 1.0f / spacing_s);
-    add_square(body->ww, at->gyr_rad_s, 1.0f);
-    body->a = at->acc_m_s2;
+    const jcal_vec3_t w = reading(self, sensor, MIDDLE)->gyr_rad_s;
+    const jcal_body_t at = body_at(self, sensor, MIDDLE, per_s);
+    jcal_body_t mean[2] = {at, at};
+    for (size_t side = 0u; side < 2u; ++side) {
+        const size_t place = (side == 0u) ? (MIDDLE - 1u) : (MIDDLE + 1u);
+        const float half_s = (side == 0u) ? (-0.5f * spacing_s) : (0.5f * spacing_s);
+        const jcal_body_t neighbour = body_at(self, sensor, place, per_s);
+        const jcal_vec3_t turn = jcal_vec3_scale(jcal_vec3_add(w, reading(self, sensor, place)->gyr_rad_s), half_s);
+        blend(&mean[side], &neighbour, turn);
+    }
+    blend(&mean[0], &mean[1], jcal_vec3(0.0f, 0.0f, 0.0f));
+    return mean[0];
 }
 
 /// The body of one sensor in the middle of a full ring.
-static jcal_body_t body_of(const jcal_kinematics_t *self, unsigned sensor, jcal_derivative_t derivative,
-                           float spacing_s)
+static jcal_body_t body_of(const jcal_kinematics_t *self, unsigned sensor, jcal_derivative_t derivative, float spacing_s)
 {
-    static const float five_point[] = {8.0f / 12.0f, -1.0f / 12.0f, 0.0f};
-    static const float symmetric[] = {0.5f, 0.0f, 0.0f};
-    jcal_body_t body = {0};
+    const float per_s = 1.0f / spacing_s;
+    const jcal_plane_t five_point = {per_s * (8.0f / 12.0f), -per_s / 12.0f};
+    const jcal_plane_t symmetric = {0.5f * per_s, 0.0f};
     if (derivative == JCAL_DERIVATIVE_SMOOTHED) {
-        smoothed(self, sensor, spacing_s, &body);
-    } else {
-        plain(self, sensor, (derivative == JCAL_DERIVATIVE_FIVE_POINT) ? five_point : symmetric, spacing_s, &body);
+        return smoothed(self, sensor, five_point, spacing_s);
     }
-    return body;
+    return body_at(self, sensor, MIDDLE, (derivative == JCAL_DERIVATIVE_FIVE_POINT) ? five_point : symmetric);
 }
 
 /// Puts the bin that is full into the ring.
@@ -188,24 +187,4 @@ bool jcal_kinematics_put(jcal_kinematics_t *self, jcal_derivative_t derivative, 
     out->t_us = pair->t_us - since_us;
     out->dt_s = spacing_s;
     return true;
-}
-
-jcal_vec3_t jcal_body_times(const jcal_body_t *body, jcal_vec3_t r)
-{
-    const float *const ww = body->ww;
-    const float square = jcal_body_rate2(body);
-    const jcal_vec3_t d = body->dw;
-    return jcal_vec3((d.y * r.z) - (d.z * r.y) + ((ww[0] - square) * r.x) + (ww[1] * r.y) + (ww[3] * r.z),
-                     (d.z * r.x) - (d.x * r.z) + (ww[1] * r.x) + ((ww[2] - square) * r.y) + (ww[4] * r.z),
-                     (d.x * r.y) - (d.y * r.x) + (ww[3] * r.x) + (ww[4] * r.y) + ((ww[5] - square) * r.z));
-}
-
-void jcal_body_matrix(const jcal_body_t *body, jcal_vec3_t *columns)
-{
-    const float *const ww = body->ww;
-    const float square = jcal_body_rate2(body);
-    const jcal_vec3_t d = body->dw;
-    columns[0] = jcal_vec3(ww[0] - square, ww[1] + d.z, ww[3] - d.y);
-    columns[1] = jcal_vec3(ww[1] - d.z, ww[2] - square, ww[4] + d.x);
-    columns[2] = jcal_vec3(ww[3] + d.y, ww[4] - d.x, ww[5] - square);
 }
