@@ -18,11 +18,11 @@
 enum { CENTER_STIFF = 0, CENTER_HINGE = 1, CENTER_TWO_AXES = 2, CENTER_BALL = 3 };
 
 typedef struct {
-    double r1[3], r2[3];      ///< Joint to sensor, sensor frames, m.
-    double base, joint;       ///< Amplitudes, rad: of the first segment, of the joint.
-    double carried;           ///< Of the joint centre's way, m.
+    double r1[3], r2[3];        ///< Joint to sensor, sensor frames, m.
+    double base, joint;         ///< Amplitudes, rad: of the first segment, of the joint.
+    double carried;             ///< Of the joint centre's way, m.
     double bias1[3], bias2[3];  ///< Of the accelerometers, m/s^2.
-    double noise;             ///< Of the accelerometers, m/s^2; of the gyroscopes a tenth of it in rad/s.
+    double noise;               ///< Of the accelerometers, m/s^2; of the gyroscopes a tenth of it in rad/s.
     double rate_hz;
     int dof;
     int seed;

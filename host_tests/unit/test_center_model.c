@@ -88,7 +88,8 @@ static void features_times_monomials_are_the_squared_form(void)
         for (unsigned i = 0; i < JCAL_CENTER_FEATURES; ++i) {
             sum += (double)f[i] * (double)phi[i];
         }
-        TEST_ASSERT_TRUE(fabs(sum - squared_form(&samples[n], anywhere)) < 2e-4 * square_of((double[3]){9.81, 3.0, 3.0}));
+        TEST_ASSERT_TRUE(fabs(sum - squared_form(&samples[n], anywhere)) <
+                         2e-4 * square_of((double[3]){9.81, 3.0, 3.0}));
     }
 }
 

@@ -118,7 +118,8 @@ static void a_result_belongs_to_the_middle_bin(void)
     jcal_kinematic_t s;
     const uint32_t fed = feed(&m, 0, 200, JCAL_DERIVATIVE_FIVE_POINT, &s);
     const uint64_t last_us = center_sample(&m, fed - 1u).t_us;
-    TEST_ASSERT_EQUAL_UINT64(last_us - 5000u - 60000u + 5000u, s.t_us); /* three bins back, from the end of a bin to its end */
+    TEST_ASSERT_EQUAL_UINT64(last_us - 5000u - 60000u + 5000u,
+                             s.t_us); /* three bins back, from the end of a bin to its end */
 }
 
 static void a_hole_begins_a_new_chain(void)
@@ -126,7 +127,7 @@ static void a_hole_begins_a_new_chain(void)
     center_motion_t m = center_lively(4);
     jcal_kinematic_t s;
     TEST_ASSERT_EQUAL_UINT32(8u, feed(&m, 0, 20, JCAL_DERIVATIVE_SMOOTHED, &s));
-    TEST_ASSERT_EQUAL_UINT32(1u, feed(&m, 8, 1, JCAL_DERIVATIVE_SMOOTHED, &s)); /* sample by sample from here on */
+    TEST_ASSERT_EQUAL_UINT32(1u, feed(&m, 8, 1, JCAL_DERIVATIVE_SMOOTHED, &s));   /* sample by sample from here on */
     TEST_ASSERT_EQUAL_UINT32(8u, feed(&m, 10, 20, JCAL_DERIVATIVE_SMOOTHED, &s)); /* one was lost */
 }
 

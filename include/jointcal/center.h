@@ -137,6 +137,7 @@ typedef struct {
     float columns[6][12];    ///< Columns of its inverse that belong to r1 and r2.
     float covariance[2][6];  ///< Of r1 and of r2, packed, from the scatter ...
     float least[2][6];       ///< ... and what it is at least, from the matrix.
+    float fake[6];           ///< Direction of whose information the largest share may be none, scaled.
 } jcal_center_inverse_t;
 
 /// The stream engine. Caller-owned, plain, copyable at any time between calls; all members are private.

@@ -27,13 +27,16 @@
 #define BLOCKS_MIN 8.0f
 #define BLOCKS_LOST 4.0f
 
-/// Rows are wrong by this share of their length, misaligned gyroscopes and play of the joint: that much information in a direction is
-/// none. Perfect hinges leave their axis entirely open; on real ones it looks known to 0.03 to 0.07 of the best direction, against 0.2
-/// to 0.5 of the worst direction of other joints.
-#define ROW_ERROR 0.1f
-/// More than this share of a direction's information being none leaves it open: its variance grows by this, squared.
+/// Rows are wrong by this share of their length: misaligned gyroscopes, play of the joint. That much information in a direction is
+/// none. Perfect hinges leave their axis entirely open; on real ones it looks known to 0.055 to 0.12 of what the rows hold in all,
+/// against 0.2 to 0.5 of the worst direction of other joints.
+#define ROW_ERROR 0.08f
+/// More than this share of a direction's information being none leaves it open.
 #define FAKE_SHARE_MAX 0.8f
-#define OPEN 1e3f
+/// A doubtful direction within 18 deg of a known hinge axis is that axis.
+#define ALONG_COSINE2 0.9f
+/// Steps of the power iteration in each judgement; it goes on from the last one.
+#define POWER_STEPS 4u
 
 /// Residuals, squared, are never taken for less than this share of what the config calls usual.
 #define EXCESS_MIN 0.3f
@@ -137,53 +140,98 @@ static float bound(float radius_m, float hidden_m, float mismatch_m)
     return jcal_min(mismatch_m + sqrtf((radius_m * radius_m) + (hidden_m * hidden_m)), JCAL_BOUND_UNKNOWN_M);
 }
 
-/// Takes information that wrong rows may have made out of a covariance c (3 x 3, packed) of one sensor's vector.
-static bool deflate(const jcal_center_t *self, size_t sensor, float *c)
+/// Finds the direction of (r1, r2) of whose information the largest share may come from wrong rows, W = D V D with V the covariance by
+/// the matrix alone and D D the information that wrong rows make. Returns the share; `y` (6): V holds share y y'.
+static float find_fake(jcal_center_t *self, float *y)
 {
-    float own[6];
-    float values[3];
-    float n[9];
-    for (size_t i = 0u; i < 3u; ++i) {
-        for (size_t j = 0u; j <= i; ++j) {
-            own[jcal_sym_at(i, j)] = self->inverse.columns[(3u * sensor) + i][(3u * sensor) + j];
+    jcal_center_inverse_t *const inverse = &self->inverse;
+    float d[2];
+    for (size_t i = 0u; i < 2u; ++i) {
+        float power = 0.0f;
+        for (size_t k = 3u * i; k < ((3u * i) + 3u); ++k) {
+            power += self->sums.matrix[jcal_sym_at(k, k)];
+        }
+        d[i] = ROW_ERROR * sqrtf(jcal_max(power, 1.0f));
+    }
+    float *const z = inverse->fake;
+    float share = 0.0f;
+    for (unsigned step = 0u; step < POWER_STEPS; ++step) {
+        float on[6];
+        float square = 0.0f;
+        for (size_t i = 0u; i < 6u; ++i) {
+            on[i] = 0.0f;
+            for (size_t k = 0u; k < 6u; ++k) {
+                on[i] += d[i / 3u] * inverse->columns[i][k] * d[k / 3u] * z[k];
+            }
+            square += on[i] * on[i];
+        }
+        share = sqrtf(square);
+        for (size_t i = 0u; i < 6u; ++i) {
+            z[i] = (share > FLT_MIN) ? (on[i] / share) : 1.0f;
         }
     }
-    if (jcal_eig_symmetric(own, 3u, values, n) != JCAL_OK) {
-        return false;
+    for (size_t i = 0u; i < 6u; ++i) {
+        y[i] = z[i] / d[i / 3u];
     }
-    const float fake = ROW_ERROR * ROW_ERROR * jcal_center_row_power(&self->sums);
-    float t[9] = {0.0f};
-    for (size_t k = 0u; k < 3u; ++k) {
-        const float share = fake * values[k];
-        const float grow = (share < FAKE_SHARE_MAX) ? (1.0f / (1.0f - share)) : OPEN;
-        for (size_t i = 0u; i < 9u; ++i) {
-            t[i] += grow * n[(3u * k) + (i / 3u)] * n[(3u * k) + (i % 3u)];
-        }
-    }
-    float out[6];
-    jcal_sym_congruence(c, 3u, t, 3u, out);
-    (void)memcpy(c, out, sizeof out);
-    return true;
+    return share;
 }
 
-static bounds_t bounds_of(const jcal_center_t *self, size_t sensor, float hidden_m)
+/// How a judgement sees errors of the model.
+typedef struct {
+    float hidden_m;  ///< How far what is unexplained may have shifted the estimate.
+    float share;     ///< Of one direction's information that wrong rows may have made ...
+    float y[6];      ///< ... and the direction.
+} doubt_t;
+
+/// Takes information that wrong rows may have made out of a covariance c (3 x 3, packed) of one sensor's vector.
+static void deflate(const jcal_center_t *self, size_t sensor, const doubt_t *doubt, float *c)
 {
-    const float *const scatter = self->inverse.covariance[sensor];
-    const float *const matrix = self->inverse.least[sensor];
+    const float share = doubt->share;
+    const float *const own = &doubt->y[3u * sensor];
+    float by_matrix = 0.0f;
+    for (size_t i = 0u; i < 3u; ++i) {
+        by_matrix += self->inverse.columns[(3u * sensor) + i][(3u * sensor) + i];
+    }
+    const float left = 1.0f - share;
+    const float more = share * ((1.0f / (left * left)) - 1.0f) * ((c[0] + c[2] + c[5]) / jcal_max(by_matrix, FLT_MIN));
+    const float length2 = (own[0] * own[0]) + (own[1] * own[1]) + (own[2] * own[2]);
+    const float open = JCAL_BOUND_UNKNOWN_M * JCAL_BOUND_UNKNOWN_M / jcal_max(length2, FLT_MIN);
+    jcal_sym_rank1(c, 3u, own, (share < FAKE_SHARE_MAX) ? more : open);
+}
+
+/// Whether the doubtful direction of one sensor's vector is the known hinge axis: then it is open as is to be expected.
+static bool is_along_axis(const float *y, jcal_vec3_t axis)
+{
+    const jcal_vec3_t own = jcal_vec3(y[0], y[1], y[2]);
+    const float along = jcal_vec3_dot(own, axis);
+    return (along * along) > (ALONG_COSINE2 * jcal_vec3_dot(own, own));
+}
+
+static bounds_t bounds_of(const jcal_center_t *self, size_t sensor, const doubt_t *doubt)
+{
+    const jcal_center_inverse_t *const inverse = &self->inverse;
+    const jcal_vec3_t axis = (sensor == 0u) ? self->cfg.hinge_axis1 : self->cfg.hinge_axis2;
+    const float mismatch_m = self->cfg.mismatch_m;
+    const bool by_scatter = radius(inverse->covariance[sensor]) > radius(inverse->least[sensor]);
+    float known[6];
     float larger[6];
-    (void)memcpy(larger, (radius(scatter) > radius(matrix)) ? scatter : matrix, sizeof larger);
+    (void)memcpy(known, by_scatter ? inverse->covariance[sensor] : inverse->least[sensor], sizeof known);
+    (void)memcpy(larger, known, sizeof larger);
+    deflate(self, sensor, doubt, larger);
     float values[3];
     float vectors[9];
     bounds_t b = unknown_bounds();
-    if (!deflate(self, sensor, larger) || (jcal_eig_symmetric(larger, 3u, values, vectors) != JCAL_OK)) {
+    if (jcal_eig_symmetric(larger, 3u, values, vectors) != JCAL_OK) {
         return b;
     }
-    const float mismatch_m = self->cfg.mismatch_m;
     b.direction = jcal_vec3(vectors[0], vectors[1], vectors[2]);
-    b.weakest = bound(NORMAL_95 * sqrtf(jcal_max(values[0], 0.0f)), hidden_m, mismatch_m);
-    b.second = bound(NORMAL_95 * sqrtf(jcal_max(values[1], 0.0f)), hidden_m, mismatch_m);
-    across(larger, (sensor == 0u) ? self->cfg.hinge_axis1 : self->cfg.hinge_axis2);
-    b.all = bound(radius(larger), hidden_m, mismatch_m);
+    b.weakest = bound(NORMAL_95 * sqrtf(jcal_max(values[0], 0.0f)), doubt->hidden_m, mismatch_m);
+    b.second = bound(NORMAL_95 * sqrtf(jcal_max(values[1], 0.0f)), doubt->hidden_m, mismatch_m);
+    if (!is_along_axis(&doubt->y[3u * sensor], axis)) {
+        (void)memcpy(known, larger, sizeof known);
+    }
+    across(known, axis);
+    b.all = bound(radius(known), doubt->hidden_m, mismatch_m);
     return b;
 }
 
@@ -225,11 +273,13 @@ static void judge(jcal_center_t *self)
     const float lasting = jcal_min(jcal_max(sums->lagged, 0.0f) / jcal_max(sums->raw, FLT_MIN), 1.0f);
     verdict->misfit = sqrtf(share);
     const float length = sqrtf(jcal_max(jcal_vec3_dot(place->r1, place->r1), jcal_vec3_dot(place->r2, place->r2)));
-    const float hidden_m = ((HIDDEN_SHARE * sqrtf(share * lasting)) + share) * length;
+    doubt_t doubt;
+    doubt.hidden_m = ((HIDDEN_SHARE * sqrtf(share * lasting)) + share) * length;
+    doubt.share = find_fake(self, doubt.y);
     const bool enough = sums->blocks >= BLOCKS_MIN;
-    const bounds_t b[2] = {enough ? bounds_of(self, 0u, hidden_m) : unknown_bounds(),
-                           enough ? bounds_of(self, 1u, hidden_m) : unknown_bounds()};
-    name_what_is_missing(self, b, hidden_m);
+    const bounds_t b[2] = {enough ? bounds_of(self, 0u, &doubt) : unknown_bounds(),
+                           enough ? bounds_of(self, 1u, &doubt) : unknown_bounds()};
+    name_what_is_missing(self, b, doubt.hidden_m);
     verdict->bound1_m = b[0].all;
     verdict->bound2_m = b[1].all;
     verdict->weakest1_m = b[0].weakest;

@@ -77,15 +77,14 @@ static void fill_columns(jcal_vec3_t w, jcal_vec3_t dw, jcal_vec3_t *k)
 static jcal_body_t body_at(const jcal_kinematics_t *self, unsigned sensor, size_t place, jcal_plane_t per_s)
 {
     const jcal_imu_t *const at = reading(self, sensor, place);
-    const jcal_vec3_t near = jcal_vec3_sub(reading(self, sensor, place + 1u)->gyr_rad_s,
-                                           reading(self, sensor, place - 1u)->gyr_rad_s);
-    const jcal_vec3_t far = jcal_vec3_sub(reading(self, sensor, place + 2u)->gyr_rad_s,
-                                          reading(self, sensor, place - 2u)->gyr_rad_s);
+    const jcal_vec3_t near =
+        jcal_vec3_sub(reading(self, sensor, place + 1u)->gyr_rad_s, reading(self, sensor, place - 1u)->gyr_rad_s);
+    const jcal_vec3_t far =
+        jcal_vec3_sub(reading(self, sensor, place + 2u)->gyr_rad_s, reading(self, sensor, place - 2u)->gyr_rad_s);
     jcal_body_t body;
     body.a = at->acc_m_s2;
     body.rate2 = jcal_vec3_dot(at->gyr_rad_s, at->gyr_rad_s);
-    fill_columns(at->gyr_rad_s, jcal_vec3_add(jcal_vec3_scale(near, per_s.re), jcal_vec3_scale(far, per_s.im)),
-                 body.k);
+    fill_columns(at->gyr_rad_s, jcal_vec3_add(jcal_vec3_scale(near, per_s.re), jcal_vec3_scale(far, per_s.im)), body.k);
     return body;
 }
 
@@ -116,7 +115,8 @@ static jcal_body_t smoothed(const jcal_kinematics_t *self, unsigned sensor, jcal
 }
 
 /// The body of one sensor in the middle of a full ring.
-static jcal_body_t body_of(const jcal_kinematics_t *self, unsigned sensor, jcal_derivative_t derivative, float spacing_s)
+static jcal_body_t body_of(const jcal_kinematics_t *self, unsigned sensor, jcal_derivative_t derivative,
+                           float spacing_s)
 {
     const float per_s = 1.0f / spacing_s;
     const jcal_plane_t five_point = {per_s * (8.0f / 12.0f), -per_s / 12.0f};
