@@ -27,7 +27,7 @@ from mutation_list import MUTATIONS, SURVIVORS  # noqa: E402
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "docs" / "measurements" / "mutations.md"
-PARTS = ("CMakeLists.txt", "CMakePresets.json", "include", "lib", "host_tests", "tools", "README.md")
+PARTS = ("CMakeLists.txt", "CMakePresets.json", "include", "lib", "port", "host_tests", "tools", "README.md")
 UNITY = Path("build") / "unity"
 WORKERS = 2
 SLOW = "test_(hinge_long|hinge_window)$"  # run last: quicker tests kill most
