@@ -9,7 +9,7 @@
 #include <unity.h>
 
 #ifdef JCAL_TEST_SHORT
-enum { SEEDS = 1, SECONDS = 20, NEVER_SECONDS = 15 };
+enum { SEEDS = 1, SECONDS = 40, NEVER_SECONDS = 15 };
 #else
 enum { SEEDS = 6, SECONDS = 40, NEVER_SECONDS = 60 };
 #endif
@@ -307,7 +307,7 @@ static void shifting_all_times_changes_no_bit(void)
     }
     jcal_two_dof_result_t a = result_of(&engine);
     jcal_two_dof_result_t b = result_of(&later);
-    TEST_ASSERT_EQUAL_UINT64(a.t_us + UINT64_C(0x123456789ABCDEF), b.t_us);
+    TEST_ASSERT_TRUE(a.t_us + UINT64_C(0x123456789ABCDEF) == b.t_us); /* small builds of Unity know no 64-bit types */
     a.t_us = 0u;
     b.t_us = 0u;
     TEST_ASSERT_EQUAL_MEMORY(&a, &b, sizeof a);
