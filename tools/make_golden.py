@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Write the golden vectors of the hinge, host_tests/golden/hinge.h, from the float64 reference.
+"""Write the golden vectors, host_tests/golden/hinge.h and two_dof.h, from the float64 references.
 
-    python3 tools/make_golden.py            write the file
+    python3 tools/make_golden.py            write the files
     python3 tools/make_golden.py --check    exit 1 if the numbers in the repository differ
 
 Another version of numpy may round differently, so --check compares numbers with a
@@ -10,7 +10,8 @@ tolerance, and everything between them exactly.
 
 The numbers know nothing of the C code: samples come from the simulator, the costs of
 the stream form and of OLS20 from jointcal_tools.ols20 and from the formulas of
-docs/METHOD.md section 2, written out below.
+docs/METHOD.md section 2, written out below; those of the 2-DoF joint from
+jointcal_tools.lai22 and lai22_angles.
 """
 
 from __future__ import annotations
@@ -25,13 +26,16 @@ import numpy as np
 TOOLS = Path(__file__).resolve().parent
 sys.path.insert(0, str(TOOLS / "python"))
 
-from jointcal_tools import ols20  # noqa: E402
+from jointcal_tools import lai22, lai22_angles, ols20  # noqa: E402
+from jointcal_tools import quaternions as quat  # noqa: E402
+from jointcal_tools.lai22_signals import Samples  # noqa: E402
 from jointcal_tools.simulate import HingeSpec, simulate_hinge  # noqa: E402
 
-GOLDEN = TOOLS.parent / "host_tests" / "golden" / "hinge.h"
+GOLDEN = TOOLS.parent / "host_tests" / "golden"
 SEED = 42
 SAMPLES = 40
 POINTS = 6
+TWO_DOF_SAMPLES = 30
 RATE_HZ = 50.0
 GYR_NOISE_RAD_S = 0.03  # fields of jcal_hinge_config_t with their defaults
 ACC_BIAS_M_S2 = 0.5
@@ -96,7 +100,7 @@ def table(name: str, comment: str, values: np.ndarray, kind: str = "double") -> 
     return f"/// {comment}\nstatic const {kind} {name}{shape} = {{\n" + "\n".join(rows) + "\n};\n"
 
 
-def make_header() -> str:
+def hinge_header() -> str:
     rng = np.random.default_rng(SEED)
     samples, axes = make_samples(), make_axes(rng)
     gyr1, acc1, gyr2, acc2 = (samples[:, k: k + 3] for k in (0, 3, 6, 9))
@@ -137,6 +141,63 @@ def make_header() -> str:
 """
 
 
+def random_directions(rng: np.random.Generator, rows: int, size: int) -> np.ndarray:
+    """(rows, size): unit vectors."""
+    v = rng.standard_normal((rows, size))
+    return float32(v / np.linalg.norm(v, axis=1, keepdims=True))
+
+
+def lai22_rows(rows: lai22.Rows) -> np.ndarray:
+    """(n, 8): residual, its gradient by j1 (3) and j2 (3) as if they were free, and by delta."""
+    return np.column_stack([rows.e, rows.j1, rows.j2, rows.delta])
+
+
+def two_dof_header() -> str:
+    rng = np.random.default_rng(SEED)
+    q1, q2 = random_directions(rng, TWO_DOF_SAMPLES, 4), random_directions(rng, TWO_DOF_SAMPLES, 4)
+    w1, w2 = (float32(rng.standard_normal((TWO_DOF_SAMPLES, 3))) for _ in range(2))
+    axes = np.hstack([random_directions(rng, POINTS, 3), random_directions(rng, POINTS, 3)])
+    delta = float32(rng.uniform(-np.pi, np.pi, POINTS))
+    poses = [lai22.Pose(j[:3], j[3:], float(d)) for j, d in zip(axes, delta, strict=True)]
+    # What the C code gets are rounded quaternions: their matrices are those of the nearest unit ones.
+    unit1, unit2 = (q / np.linalg.norm(q, axis=1, keepdims=True) for q in (q1, q2))
+    samples = Samples(quat.matrices(unit1), quat.matrices(unit2), w1, w2)
+    costs = [[lai22.cost(samples, pose, kind) for kind in ("rotation-ratio", "orientation-variance")] for pose in poses]
+    relative = [lai22_angles.euler_zxy(lai22_angles.relative(unit1, unit2, pose.j1, pose.j2, pose.delta))
+                for pose in poses[:1]]
+    tables = [
+        table("golden_samples", "q1, q2, sensor to E1 and E2, and w1, w2 in E1 and E2, rad/s.",
+              np.hstack([q1, q2, w1, w2]), "float"),
+        table("golden_points", "j1, j2 and delta, rad, of the points.", np.column_stack([axes, delta]), "float"),
+        table("golden_costs", "At each point, summed over all samples: (7) squared with the mean of |n|^2, and the squared "
+              "deviation of (13) from its mean.", np.array(costs)),
+        table("golden_rotation", "At the first point: (7), its gradient by j1, j2 as if they were free, and by delta.",
+              lai22_rows(lai22.rotation_rows(samples, poses[0]))),
+        table("golden_orientation", "At the first point: (13), likewise.", lai22_rows(lai22.sine_rows(samples, poses[0]))),
+        table("golden_angles", "With the axes and the heading of the first point: flexion (22), carrying angle (23), "
+              "pronation (24), rad.", np.column_stack(relative[0])),
+    ]
+    return f"""/* SPDX-License-Identifier: MIT */
+/// @file
+/// Golden vectors of the 2-DoF joint in float64, generated: do not edit. Compared by unit/test_golden_two_dof.c.
+///
+/// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
+#ifndef GOLDEN_TWO_DOF_H
+#define GOLDEN_TWO_DOF_H
+
+/* clang-format off */
+#define GOLDEN_SAMPLES {TWO_DOF_SAMPLES}
+#define GOLDEN_POINTS {POINTS}
+
+""" + "\n".join(tables) + """/* clang-format on */
+
+#endif /* GOLDEN_TWO_DOF_H */
+"""
+
+
+HEADERS = {"hinge.h": hinge_header, "two_dof.h": two_dof_header}
+
+
 def differences(old: str, new: str) -> list[str]:
     """What differs between two files beyond rounding, block by block."""
     def body(text: str) -> str:
@@ -159,14 +220,18 @@ def differences(old: str, new: str) -> list[str]:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="compare instead of writing")
-    header = make_header()
-    if not parser.parse_args().check:
-        GOLDEN.parent.mkdir(exist_ok=True)
-        GOLDEN.write_text(header, newline="\n")
-        return 0
-    problems = differences(GOLDEN.read_text(), header) if GOLDEN.is_file() else ["no such file"]
+    check = parser.parse_args().check
+    problems = []
+    for name, make in HEADERS.items():
+        path, header = GOLDEN / name, make()
+        if not check:
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(header, newline="\n")
+            continue
+        found = differences(path.read_text(), header) if path.is_file() else ["no such file"]
+        problems += [f"host_tests/golden/{name} differs from what tools/make_golden.py writes: {each}" for each in found]
     for problem in problems:
-        print(f"host_tests/golden/hinge.h differs from what tools/make_golden.py writes: {problem}", file=sys.stderr)
+        print(problem, file=sys.stderr)
     return 1 if problems else 0
 
 

@@ -19,6 +19,14 @@ RESIDUAL = "lib/calib/hinge_residual.h"
 COST = "lib/calib/hinge_cost.c"
 ACCEPT = "lib/calib/hinge_accept.c"
 GATE = "lib/sample/gate.c"
+TWO = "lib/calib/two_dof_model.c"
+MOMENTS = "lib/calib/two_dof_moments.c"
+PRIOR = "lib/calib/two_dof_prior.c"
+VERDICT = "lib/calib/two_dof_verdict.c"
+ANGLES = "lib/calib/joint_angles.c"
+ORIENTATION = "lib/sample/orientation.c"
+RATE = "lib/sample/rate.h"
+WATCH = "lib/calib/watch.h"
 
 MUTATIONS = [
     (MODEL, "out[3] = w.x * w.y;", "out[3] = w.x * w.z;", "product xy"),
@@ -148,6 +156,55 @@ MUTATIONS = [
     ("lib/math/plane.h", "2.0f * t * scale", "t * scale", "sine by the half angle"),
     ("lib/math/chol.c", "m[jcal_sym_at(i, k)] *= scale[i] * scale[k];",
      "m[jcal_sym_at(i, k)] *= scale[i];", "unit diagonal"),
+    (TWO, "const float uu = (u0 * c) + (u1 * s) + u2;", "const float uu = (u0 * c) - (u1 * s) + u2;", "heading in the form"),
+    (TWO, "on_ud += ((d0 * c) + (d1 * s) + d2) * pairs[b];", "on_ud += ((d0 * c) - (d1 * s) + d2) * pairs[b];",
+     "slope by the heading"),
+    (TWO, "out->ud[b] += ((u1 * c) - (u0 * s)) * pair;", "out->ud[b] += ((u1 * c) + (u0 * s)) * pair;",
+     "slope by the heading, other half"),
+    (TWO, "sum_dd += pair * ((2.0f * on_dd)", "sum_dd += pair * ((1.0f * on_dd)", "curvature by the heading"),
+    (TWO, "outer(point->j1, t2.v, out->slope[3]);", "outer(point->j1, t2.u, out->slope[3]);", "second tilt of axis 2"),
+    (TWO, "lin->matrix[10u + i] = dot9(sums.ud, p->slope[i]);", "lin->matrix[10u + i] = dot9(sums.ud, p->slope[3u - i]);",
+     "row of the heading"),
+    (TWO, "jcal_max(1.0f - (form.cost * per_weight), NORMAL2_MIN);", "jcal_max(1.0f - form.cost, NORMAL2_MIN);",
+     "mean of |n|^2"),
+    (TWO, "(bend * form.gradient[i])", "(0.0f * form.gradient[i])", "slope of the normalisation"),
+    (TWO, "(form.gradient[i] - (sum * mean))", "(form.gradient[i] + (sum * mean))", "mean of the sine in the gradient"),
+    (TWO, "(*from - (slope[k] * mean))", "*from", "mean of the sine in the matrix"),
+    (TWO, "on_d[a] = (m[1] * heading.re) - (m[0] * heading.im);", "on_d[a] = (m[1] * heading.re) + (m[0] * heading.im);",
+     "slope of the mean by the heading"),
+    (TWO, "o10 += weight * (r1[q] + r0[q + 1u]);", "o10 += weight * (r1[q] - r0[q + 1u]);", "form in the heading"),
+    (MOMENTS, "out[1] = (a.y * b.x) - (a.x * b.y);", "out[1] = (a.x * b.y) - (a.y * b.x);", "sense of the heading"),
+    (MOMENTS, "jcal_vec3_cross(sample->w2, r2.column[k]);", "jcal_vec3_cross(r2.column[k], sample->w2);",
+     "rate of sensor 2 in (7)"),
+    (MOMENTS, "row1[d] += s1 * va[0];", "row1[d] += s0 * va[0];", "block on the diagonal"),
+    (MOMENTS, "*y = (turn.im * a) + (turn.re * b);", "*y = (turn.re * b) - (turn.im * a);", "re-referencing"),
+    (MOMENTS, "moments->mean[i] *= share;", "moments->mean[i] *= 1.0f;", "fading"),
+    (PRIOR, "out[1] = (view->slope[0][1] * v[0]) + (view->slope[1][1] * v[1]);",
+     "out[1] = (view->slope[1][0] * v[0]) + (view->slope[1][1] * v[1]);", "slope of the offset"),
+    (PRIOR, "cost += offset[i] * (on[i] + (2.0f * prior->gradient[i]));",
+     "cost += offset[i] * (on[i] + prior->gradient[i]);", "cost of what is remembered"),
+    (PRIOR, "- (heading[i] * heading[k] * per_own)", "+ (heading[i] * heading[k] * per_own)", "elimination of the heading"),
+    (PRIOR, "- (heading[i] * lin->gradient[TILTS] * per_own)", "+ (heading[i] * lin->gradient[TILTS] * per_own)",
+     "elimination of the heading in the gradient"),
+    (PRIOR, "(trace > TRACE_MAX) ? (TRACE_MAX / trace) : 1.0f", "(trace > TRACE_MAX) ? 1.0f : 1.0f", "limit of the prior"),
+    (VERDICT, "const float half = 0.5f * (a - c);", "const float half = 0.5f * (a + c);", "larger variance in a plane"),
+    (VERDICT, "if (evidence->has_rival &&", "if (!evidence->has_rival &&", "other minimum"),
+    (VERDICT, "(misfit > MISFIT_MAX)", "(misfit < 0.0f)", "data that do not fit"),
+    (VERDICT, "sign1 * sign2 * jcal_atan2(sine,", "sign1 * jcal_atan2(sine,", "sign of the carrying angle"),
+    (ANGLES, "2.0f * ((q.w * q.y) - (q.x * q.z))", "2.0f * ((q.w * q.y) + (q.x * q.z))", "pronation (24)"),
+    (ANGLES, "2.0f * ((q.w * q.x) + (q.y * q.z))", "2.0f * ((q.w * q.x) - (q.y * q.z))", "carrying angle (23)"),
+    (ANGLES, "about_z(is->flexion_rad - shall->flexion_rad)", "about_z(shall->flexion_rad - is->flexion_rad)",
+     "reference pose (25)"),
+    (ORIENTATION, "(self->still1_s > config->frozen_s) || (self->still2_s > config->frozen_s)",
+     "(self->still1_s > config->frozen_s) || (self->still1_s > config->frozen_s)", "frozen sensor 2"),
+    (ORIENTATION, "(pair->t_us <= self->last.t_us)", "(pair->t_us < self->last.t_us)", "time that stands still"),
+    (RATE, "const float sign = (turn.w < 0.0f) ? -1.0f : 1.0f;", "const float sign = 1.0f;", "sign of a quaternion"),
+    (RATE, "jcal_quat_mul(to, jcal_quat_conj(from))", "jcal_quat_mul(jcal_quat_conj(from), to)", "frame of the rate"),
+    (RATE, "(2.0f * jcal_atan2(sine, sign * turn.w) / sine)", "(jcal_atan2(sine, sign * turn.w) / sine)", "half angle"),
+    (WATCH, "const float clipped = jcal_min(square, JCAL_WATCH_CLIP * usual);", "const float clipped = square;", "clip"),
+    (WATCH, "return rate2 / (rate2 + JCAL_WATCH_REST_RATE2);", "return 1.0f;", "rest carries no weight"),
+    (WATCH, "self->seen_s[kind] = jcal_min(self->seen_s[kind] + motion_s, JCAL_WATCH_USUAL_S);",
+     "self->seen_s[kind] = 1e6f;", "what is usual follows"),
 ]
 
 # Old text -> why no test can see the difference.

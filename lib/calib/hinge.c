@@ -177,7 +177,14 @@ static float slice_s(const jcal_hinge_t *self)
     return 1.0f / self->cfg.slices_per_s;
 }
 
-/// Weight of the accelerometer reading: less in fast motion, where (17) of [OLS20] is not zero, and while a pose lasts.
+/// Variance of the accelerometers' residual (25) of [OLS20], (m/s^2)^2: it grows with fast motion, where (17) is not zero.
+static float acc_variance(const jcal_hinge_t *self)
+{
+    const float violation = self->cfg.lever_arm_m * self->rate_product;
+    return (self->cfg.acc_noise_m_s2 * self->cfg.acc_noise_m_s2) + (violation * violation);
+}
+
+/// Weight of the accelerometer reading: less in fast motion and while a pose lasts.
 static float acc_weight(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
 {
     const float share = sample->dt_s / (sample->dt_s + PRODUCT_TIME_S);
@@ -193,9 +200,7 @@ static float acc_weight(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     if (self->dwell_s > DWELL_MAX_S) {
         return 0.0f; /* so small a weight would only round */
     }
-    const float violation = self->cfg.lever_arm_m * self->rate_product;
-    const float variance = (self->cfg.acc_noise_m_s2 * self->cfg.acc_noise_m_s2) + (violation * violation);
-    return (sample->dt_s / JCAL_HINGE_UNIT_S) / (variance * (1.0f + self->dwell_s));
+    return (sample->dt_s / JCAL_HINGE_UNIT_S) / (acc_variance(self) * (1.0f + self->dwell_s));
 }
 
 static jcal_hinge_sample_t weigh(jcal_hinge_t *self, const jcal_pair_t *pair, float dt_s)
@@ -247,10 +252,8 @@ static void watch_fit(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     const float gyr = jcal_vec3_norm(jcal_vec3_cross(sample->w1, j1)) - jcal_vec3_norm(jcal_vec3_cross(sample->w2, j2));
     const float acc = jcal_vec3_dot(sample->a1, j1) - jcal_vec3_dot(sample->a2, j2) - self->acc_constant_m_s2;
     const float noise = self->cfg.gyr_noise_rad_s;
-    const float violation = self->cfg.lever_arm_m * self->rate_product;
-    const float acc_variance = (self->cfg.acc_noise_m_s2 * self->cfg.acc_noise_m_s2) + (violation * violation);
     jcal_watch_add(&self->watch, 0u, gyr * gyr / ((noise * noise) + (RATE_SHARE2 * rate2)), motion_s);
-    jcal_watch_add(&self->watch, 1u, acc * acc / (WATCH_ACC_SHARE * acc_variance), motion_s);
+    jcal_watch_add(&self->watch, 1u, acc * acc / (WATCH_ACC_SHARE * acc_variance(self)), motion_s);
 }
 
 /// A sensor has moved: what was learnt of the joint is void.
