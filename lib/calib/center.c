@@ -89,11 +89,12 @@ const char *jcal_center_config_check(const jcal_center_config_t *config)
             return fields[i].name;
         }
     }
-    if (((int)config->method < (int)JCAL_CENTER_SS) || ((int)config->method > (int)JCAL_CENTER_SA)) {
+    const int method = (int)config->method;
+    if ((method < (int)JCAL_CENTER_SS) || (method > (int)JCAL_CENTER_SA)) {
         return "method";
     }
-    if (((int)config->derivative < (int)JCAL_DERIVATIVE_SMOOTHED) ||
-        ((int)config->derivative > (int)JCAL_DERIVATIVE_SYMMETRIC)) {
+    const int derivative = (int)config->derivative;
+    if ((derivative < (int)JCAL_DERIVATIVE_SMOOTHED) || (derivative > (int)JCAL_DERIVATIVE_SYMMETRIC)) {
         return "derivative";
     }
     if (!is_axis(config->hinge_axis1)) {
