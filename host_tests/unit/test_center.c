@@ -141,6 +141,56 @@ static void knocks_hardly_matter_to_absolute_differences(void)
     TEST_ASSERT_TRUE(error[JCAL_CENTER_SA] < 0.5 * error[JCAL_CENTER_SS]);
 }
 
+/* The orientations of a sample; those of sensor 2 from an earth frame with another heading. */
+static jcal_attitudes_t attitudes_of(const center_motion_t *m, uint32_t k, double heading)
+{
+    const double t_s = (double)k / m->rate_hz;
+    const pose_quat_t other = pose_mul(pose_turn(-heading, 0.0, 0.0, 1.0), center_orientation(m, 2, t_s));
+    const jcal_attitudes_t out = {pose_single(center_orientation(m, 1, t_s)), pose_single(other)};
+    return out;
+}
+
+static void orientations_give_the_centre_and_the_heading_offset(void)
+{
+    const double headings[] = {0.0, 1.0, -2.5, 3.1};
+    config.method = JCAL_CENTER_LS;
+    for (int i = 0; i < 4; ++i) {
+        const center_motion_t m = center_lively(i);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
+        for (uint32_t k = 0; k < (uint32_t)(30.0 * m.rate_hz); ++k) {
+            const jcal_pair_t pair = center_sample(&m, k);
+            const jcal_attitudes_t attitudes = attitudes_of(&m, k, headings[i]);
+            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_push_oriented(&engine, &pair, &attitudes));
+            (void)jcal_center_step(&engine);
+        }
+        assert_inside(&m);
+        const jcal_center_result_t r = result_of(&engine);
+        TEST_ASSERT_TRUE(center_error(r.joint_to_sensor1_m, m.r1) < 0.003);
+        TEST_ASSERT_TRUE(center_error(r.joint_to_sensor2_m, m.r2) < 0.003);
+        TEST_ASSERT_FLOAT_WITHIN(0.01f, 0.0f, (float)sin((double)r.heading_offset_rad - headings[i]));
+        TEST_ASSERT_TRUE(cos((double)r.heading_offset_rad - headings[i]) > 0.0);
+    }
+}
+
+static void orientations_are_needed_by_their_method_and_must_be_of_length_one(void)
+{
+    const center_motion_t m = center_lively(1);
+    const jcal_pair_t pair = center_sample(&m, 1);
+    jcal_attitudes_t attitudes = attitudes_of(&m, 1, 0.0);
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_push_oriented(&engine, &pair, &attitudes)); /* not needed, welcome */
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_step(&engine));
+    config.method = JCAL_CENTER_LS;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_push(&engine, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_push_oriented(&engine, &pair, NULL));
+    attitudes.q2.w += 2.0f;
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_center_push_oriented(&engine, &pair, &attitudes));
+    TEST_ASSERT_EQUAL_UINT32(1u, result_of(&engine).rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
+    attitudes.q2.w = NAN;
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_center_push_oriented(&engine, &pair, &attitudes));
+    TEST_ASSERT_EQUAL_UINT32(2u, result_of(&engine).rejected);
+}
+
 static void exchanged_sensors_give_the_exchanged_result(void)
 {
     const center_motion_t m = center_lively(2);
@@ -430,7 +480,7 @@ static void every_field_out_of_its_range_is_named(void)
         TEST_ASSERT_NULL(jcal_center_config_check(&c));
     }
     c = config;
-    c.method = (jcal_center_method_t)2;
+    c.method = (jcal_center_method_t)3;
     TEST_ASSERT_EQUAL_STRING("method", jcal_center_config_check(&c));
     c = config;
     c.derivative = (jcal_derivative_t)3;
@@ -473,6 +523,8 @@ int main(void)
     RUN_TEST(two_axes_are_enough);
     RUN_TEST(biases_are_told_from_positions);
     RUN_TEST(knocks_hardly_matter_to_absolute_differences);
+    RUN_TEST(orientations_give_the_centre_and_the_heading_offset);
+    RUN_TEST(orientations_are_needed_by_their_method_and_must_be_of_length_one);
     RUN_TEST(exchanged_sensors_give_the_exchanged_result);
     RUN_TEST(motion_that_leaves_something_open_is_never_ready);
     RUN_TEST(along_a_hinge_nothing_is_known);

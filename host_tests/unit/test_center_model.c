@@ -5,6 +5,7 @@
 #include "calib/center_sums.h"
 #include "center_motion.h"
 #include "jointcal/vec3.h"
+#include "math/plane.h"
 #include "math/sym.h"
 
 #include <string.h>
@@ -24,7 +25,7 @@ void setUp(void)
     uint32_t k = 0;
     for (unsigned n = 0; n < SAMPLES; ++k) {
         const jcal_pair_t pair = center_sample(&m, k);
-        if (jcal_kinematics_put(&chain, JCAL_DERIVATIVE_SMOOTHED, &pair, &samples[n])) {
+        if (jcal_kinematics_put(&chain, JCAL_DERIVATIVE_SMOOTHED, &pair, NULL, &samples[n])) {
             ++n;
         }
     }
@@ -38,7 +39,9 @@ static jcal_center_point_t point_of(const double *x)
 {
     const jcal_center_point_t p = {{{(float)x[0], (float)x[1], (float)x[2]}, {(float)x[3], (float)x[4], (float)x[5]}},
                                    {(float)x[6], (float)x[7], (float)x[8]},
-                                   {(float)x[9], (float)x[10], (float)x[11]}};
+                                   {(float)x[9], (float)x[10], (float)x[11]},
+                                   {1.0f, 0.0f},
+                                   false};
     return p;
 }
 
@@ -182,6 +185,57 @@ static void the_row_is_the_residuals_slope(void)
     }
 }
 
+static void a_row_with_orientations_is_the_residuals_slope(void)
+{
+    const float h = 2e-3f;
+    for (size_t n = 0u; n < SAMPLES; n += 7u) {
+        for (unsigned part = 0u; part < JCAL_CENTER_PARTS; ++part) {
+            jcal_center_point_t at = {.place = {{0.1f, -0.2f, 0.05f}, {-0.03f, 0.08f, 0.2f}}, .is_oriented = true};
+            at.heading = jcal_plane_turn(0.3f * (float)(n + 1));
+            jcal_center_residual_t r;
+            jcal_center_residual_oriented(&samples[n], &at, part, &r);
+            TEST_ASSERT_EQUAL_UINT(part, r.part);
+            for (unsigned i = 0u; i < 7u; ++i) {
+                float e[2];
+                for (int side = 0; side < 2; ++side) {
+                    const float d = (side == 0) ? -h : h;
+                    jcal_center_point_t beside = at;
+                    float *const places[6] = {&beside.place.r1.x, &beside.place.r1.y, &beside.place.r1.z,
+                                              &beside.place.r2.x, &beside.place.r2.y, &beside.place.r2.z};
+                    if (i < 6u) {
+                        *places[i] += d;
+                    } else {
+                        beside.heading = jcal_plane_times(at.heading, jcal_plane_turn(d));
+                    }
+                    jcal_center_residual_t other;
+                    jcal_center_residual_oriented(&samples[n], &beside, part, &other);
+                    e[side] = other.e;
+                }
+                TEST_ASSERT_FLOAT_WITHIN(0.02f + 0.002f * fabsf(r.row[i]), r.row[i], (e[1] - e[0]) / (2.0f * h));
+            }
+            for (unsigned i = 7u; i < 12u; ++i) {
+                TEST_ASSERT_EQUAL_FLOAT(0.0f, r.row[i]);
+            }
+        }
+    }
+}
+
+static void the_heading_is_that_by_which_both_forces_agree(void)
+{
+    jcal_kinematic_t sample = samples[3];
+    for (size_t i = 0u; i < 3u; ++i) { /* no turn: both feel the force at the joint */
+        sample.body1.k[i] = jcal_vec3(0.0f, 0.0f, 0.0f);
+        sample.body2.k[i] = sample.body1.k[i];
+    }
+    const jcal_center_place_t far_off = {{1.0f, 2.0f, 3.0f}, {4.0f, 5.0f, 6.0f}};
+    sample.body2.a = jcal_vec3(2.0f, 1.0f, 9.0f);
+    sample.body1.a = jcal_vec3(-1.0f, 2.0f, 9.0f); /* a quarter turn to the left */
+    jcal_plane_t sum = {0.0f, 0.0f};
+    jcal_center_add_heading(&sample, &far_off, &sum);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.0f, sum.re);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 5.0f, sum.im);
+}
+
 static void free_fall_has_no_direction(void)
 {
     jcal_kinematic_t s = samples[0];
@@ -202,7 +256,8 @@ static jcal_center_sums_t summed(const jcal_center_config_t *cfg, const jcal_cen
     for (unsigned n = 0; n < SAMPLES; ++n) {
         jcal_center_residual_t r;
         TEST_ASSERT_TRUE(jcal_center_residual(&samples[n], &sums.point, &r));
-        jcal_center_sums_add(&sums, cfg, &r, &samples[n]);
+        jcal_center_sums_add(&sums, cfg, &r, samples[n].dt_s);
+        jcal_center_sums_advance(&sums, &samples[n]);
     }
     return sums;
 }
@@ -343,6 +398,8 @@ int main(void)
     RUN_TEST(features_times_monomials_are_the_squared_form);
     RUN_TEST(the_form_is_the_sum_over_samples_with_its_derivatives);
     RUN_TEST(the_row_is_the_residuals_slope);
+    RUN_TEST(a_row_with_orientations_is_the_residuals_slope);
+    RUN_TEST(the_heading_is_that_by_which_both_forces_agree);
     RUN_TEST(free_fall_has_no_direction);
     RUN_TEST(sums_are_weighted_sums_of_rows);
     RUN_TEST(absolute_differences_weigh_large_ones_less);

@@ -24,7 +24,7 @@ static uint32_t feed(const center_motion_t *m, uint32_t from, uint32_t count, jc
 {
     for (uint32_t k = 0; k < count; ++k) {
         const jcal_pair_t pair = center_sample(m, from + k);
-        if (jcal_kinematics_put(&chain, derivative, &pair, out)) {
+        if (jcal_kinematics_put(&chain, derivative, &pair, NULL, out)) {
             return k + 1u;
         }
     }
@@ -44,7 +44,7 @@ static double residual(jcal_derivative_t derivative, double rate_hz)
     for (uint32_t k = 0; k < (uint32_t)(2.0 * rate_hz); ++k) {
         const jcal_pair_t pair = center_sample(&m, k);
         jcal_kinematic_t s;
-        if (jcal_kinematics_put(&chain, derivative, &pair, &s)) {
+        if (jcal_kinematics_put(&chain, derivative, &pair, NULL, &s)) {
             const float n1 = jcal_vec3_norm(jcal_vec3_sub(s.body1.a, jcal_body_times(&s.body1, r1)));
             const float n2 = jcal_vec3_norm(jcal_vec3_sub(s.body2.a, jcal_body_times(&s.body2, r2)));
             worst = fmax(worst, fabs((double)n1 - (double)n2));
@@ -81,7 +81,7 @@ static void k_is_what_cross_products_say(void)
         pair.t_us = (uint64_t)(1000000 + (k * 20000));
         pair.imu2.gyr_rad_s = jcal_vec3_add(w, jcal_vec3_scale(dw, 0.02f * (float)k));
         pair.imu2.acc_m_s2 = jcal_vec3(0.0f, 0.0f, (float)k);
-        TEST_ASSERT_EQUAL_INT(k == 3, jcal_kinematics_put(&chain, JCAL_DERIVATIVE_FIVE_POINT, &pair, &s));
+        TEST_ASSERT_EQUAL_INT(k == 3, jcal_kinematics_put(&chain, JCAL_DERIVATIVE_FIVE_POINT, &pair, NULL, &s));
     }
     const jcal_vec3_t expected = jcal_vec3_add(jcal_vec3_cross(dw, r), jcal_vec3_cross(w, jcal_vec3_cross(w, r)));
     const jcal_vec3_t got = jcal_body_times(&s.body2, r);
@@ -139,7 +139,7 @@ static void jitter_is_no_hole(void)
         jcal_pair_t pair = center_sample(&m, k);
         pair.t_us += (k % 3u) * 2000u;
         jcal_kinematic_t s;
-        out += jcal_kinematics_put(&chain, JCAL_DERIVATIVE_SMOOTHED, &pair, &s) ? 1u : 0u;
+        out += jcal_kinematics_put(&chain, JCAL_DERIVATIVE_SMOOTHED, &pair, NULL, &s) ? 1u : 0u;
     }
     TEST_ASSERT_EQUAL_UINT32(100u - 7u, out);
 }
@@ -162,8 +162,8 @@ static void smoothing_lowers_the_noise_of_the_residual(void)
             const jcal_pair_t exact = center_sample(&quiet, k);
             jcal_kinematic_t a;
             jcal_kinematic_t b;
-            const bool has_a = jcal_kinematics_put(&noisy_chain, derivative, &noisy, &a);
-            const bool has_b = jcal_kinematics_put(&chain, derivative, &exact, &b);
+            const bool has_a = jcal_kinematics_put(&noisy_chain, derivative, &noisy, NULL, &a);
+            const bool has_b = jcal_kinematics_put(&chain, derivative, &exact, NULL, &b);
             TEST_ASSERT_EQUAL_INT(has_a, has_b);
             if (has_a) {
                 const jcal_vec3_t va = jcal_vec3_sub(a.body1.a, jcal_body_times(&a.body1, r1));

@@ -22,7 +22,8 @@ extern "C" {
 /// What is minimised.
 typedef enum {
     JCAL_CENTER_SS = 0,  ///< The sum of squared differences: (15), (16) of [OLS17] (default).
-    JCAL_CENTER_SA = 1   ///< The sum of absolute differences: (20) of [OLS17]; knocks count less.
+    JCAL_CENTER_SA = 1,  ///< The sum of absolute differences: (20) of [OLS17]; knocks count less.
+    JCAL_CENTER_LS = 2   ///< Vectors instead of lengths, turned by the sensors' orientations: (9) to (14) of [OLS17].
 } jcal_center_method_t;
 
 /// The bound of something of which nothing is known, m.
@@ -48,6 +49,7 @@ typedef struct {
     jcal_vec3_t
         acc_bias1_m_s2;  ///< Estimated bias of accelerometer 1 (part of it looks like a tilt and cannot be told).
     jcal_vec3_t acc_bias2_m_s2;  ///< The same of accelerometer 2.
+    float heading_offset_rad;    ///< With JCAL_CENTER_LS: turns earth frame 2 to earth frame 1 about z; else 0.
     float misfit;                ///< Root of the share of the joint's effect that remains unexplained, 0 to 1.
     float progress1;             ///< 0 to 1: how far r1 is on the way to its bound.
     float progress2;             ///< The same for r2.
@@ -91,10 +93,12 @@ typedef struct {
     jcal_vec3_t r1, r2;
 } jcal_center_place_t;
 
-/// Private: a place and the accelerometers' biases.
+/// Private: a place and the other unknowns: with lengths the accelerometers' biases, with orientations the heading offset.
 typedef struct {
     jcal_center_place_t place;
     jcal_vec3_t b1, b2;
+    jcal_plane_t heading;  ///< Turns earth frame 2 to earth frame 1.
+    bool is_oriented;      ///< Unknown 6 is the heading; biases are zero.
 } jcal_center_point_t;
 
 /// Private: sums at the estimate; lib/calib/center_sums.h has the equations.
@@ -114,7 +118,7 @@ typedef struct {
     float weight;                ///< Sum of the weights, 1 / (m/s^2)^2.
     float raw;                   ///< Sum of squared residuals as they came in, weighted ...
     float lagged;                ///< ... and of products of those that are four samples apart.
-    float recent[4];             ///< The last residuals, m/s^2.
+    float recent[3][4];          ///< The last residuals, each part of them, m/s^2.
     float time_s;                ///< Time in the sums.
     float turn1, turn2;          ///< Integral of each sensor's squared rate.
 } jcal_center_sums_t;
@@ -140,18 +144,26 @@ typedef struct {
     float fake[6];           ///< Direction of whose information the largest share may be none, scaled.
 } jcal_center_inverse_t;
 
+/// Private: what both engines work with.
+typedef struct {
+    jcal_center_sums_t sums;
+    jcal_center_verdict_t verdict;
+    jcal_center_inverse_t inverse;
+} jcal_center_work_t;
+
 /// The stream engine. Caller-owned, plain, copyable at any time between calls; all members are private.
 typedef struct {
     jcal_center_config_t cfg;
     jcal_gate_t gate;
     jcal_inbox_t inbox;
+    jcal_attitudes_t attitudes[JCAL_INBOX_CAPACITY];  ///< Of the pairs in the inbox.
     jcal_kinematics_t kinematics;
     float moments[190];         ///< Packed 19 x 19: products of the features.
     jcal_center_place_t start;  ///< Minimum of the moments.
-    jcal_center_sums_t sums;
-    jcal_center_verdict_t verdict;
+    jcal_plane_t heading;       ///< Sum that points along the heading offset at `start` ...
+    float heading_s;            ///< ... and its time.
+    jcal_center_work_t work;
     jcal_watch_t watch;
-    jcal_center_inverse_t inverse;
     float moving_s;  ///< Time of motion in the moments.
     uint64_t t_us;   ///< Time of the last sample in the sums.
     uint8_t turn;    ///< Next item of the cycle.
@@ -173,8 +185,14 @@ JCAL_MUST_CHECK jcal_status_t jcal_center_init(jcal_center_t *self, const jcal_c
 
 /// Takes in one sample pair: checks it and puts it into the inbox. May run in an interrupt that preempts step.
 ///
-/// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL.
+/// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG (null, or JCAL_CENTER_LS); JCAL_ERR_FULL.
 jcal_status_t jcal_center_push(jcal_center_t *self, const jcal_pair_t *pair);
+
+/// The same with both sensors' orientations, each to its earth frame: with JCAL_CENTER_LS it needs them.
+///
+/// Returns:  as jcal_center_push; a quaternion that is not of length 1 is JCAL_REJECTED as out of range.
+jcal_status_t jcal_center_push_oriented(jcal_center_t *self, const jcal_pair_t *pair,
+                                        const jcal_attitudes_t *attitudes);
 
 /// Works off one sample of the inbox and one bounded slice of solving.
 ///

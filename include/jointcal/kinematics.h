@@ -18,9 +18,15 @@ typedef enum {
     JCAL_DERIVATIVE_SYMMETRIC = 2    ///< Symmetric quotient: (8) of [OLS17].
 } jcal_derivative_t;
 
+/// Private: orientations of both sensors, each to its earth frame; all zero if there are none.
+typedef struct {
+    jcal_quat_t q1, q2;
+} jcal_attitudes_t;
+
 /// Private: mean readings over one bin of about 20 ms.
 typedef struct {
     jcal_imu_t imu1, imu2;
+    jcal_attitudes_t attitudes;
     uint32_t t_us;  ///< Middle of the bin, low half of the time.
 } jcal_bin_t;
 

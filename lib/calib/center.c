@@ -31,11 +31,13 @@
 #define SETTLED_S 4.0f
 /// Sums are halved beyond this, s: accelerometers' biases wander.
 #define MEMORY_S 300.0f
+/// The same with orientations: their heading offset drifts.
+#define HEADING_MEMORY_S 60.0f
+/// Time from which the first heading offset is taken, s.
+#define HEADING_S 2.0f
 /// What may pass for usual by the watch, times the variance in the config; and where a single residual ends to count: a knock is no slip.
 #define WATCH_SHARE 5.0f
 #define WATCH_MOST 25.0f
-/// Share of the damping of steps at the estimate.
-#define DAMPING 1e-4f
 
 /// Turns of the cycle: the moments' minimum, the slices of the judgement, the estimate's step after the first of them.
 #define TURN_START 0u
@@ -90,7 +92,7 @@ const char *jcal_center_config_check(const jcal_center_config_t *config)
         }
     }
     const int method = (int)config->method;
-    if ((method < (int)JCAL_CENTER_SS) || (method > (int)JCAL_CENTER_SA)) {
+    if ((method < (int)JCAL_CENTER_SS) || (method > (int)JCAL_CENTER_LS)) {
         return "method";
     }
     const int derivative = (int)config->derivative;
@@ -112,13 +114,15 @@ static void begin_anew(jcal_center_t *self, jcal_calibration_t status)
 {
     (void)memset(self->moments, 0, sizeof self->moments);
     (void)memset(&self->start, 0, sizeof self->start);
-    (void)memset(&self->sums, 0, sizeof self->sums);
+    (void)memset(&self->work.sums, 0, sizeof self->work.sums);
     (void)memset(&self->watch, 0, sizeof self->watch);
+    (void)memset(&self->heading, 0, sizeof self->heading);
+    self->heading_s = 0.0f;
     self->moving_s = 0.0f;
     self->turn = TURN_START;
     self->has_start = false;
     self->has_point = false;
-    jcal_center_verdict_begin(&self->verdict, status);
+    jcal_center_verdict_begin(&self->work.verdict, status);
 }
 
 jcal_status_t jcal_center_init(jcal_center_t *self, const jcal_center_config_t *config)
@@ -143,9 +147,15 @@ jcal_status_t jcal_center_reset(jcal_center_t *self)
     return (self == NULL) ? JCAL_ERR_ARG : jcal_center_init(self, &self->cfg);
 }
 
+/// Length within 0.05 of 1; not so for NaN.
+static bool is_unit(jcal_quat_t q)
+{
+    return jcal_within((q.w * q.w) + (q.x * q.x) + (q.y * q.y) + (q.z * q.z), 0.9025f, 1.1025f);
+}
+
 jcal_status_t jcal_center_push(jcal_center_t *self, const jcal_pair_t *pair)
 {
-    if ((self == NULL) || (pair == NULL)) {
+    if ((self == NULL) || (pair == NULL) || (self->cfg.method == JCAL_CENTER_LS)) {
         return JCAL_ERR_ARG;
     }
     if (jcal_inbox_full(&self->inbox)) {
@@ -154,6 +164,27 @@ jcal_status_t jcal_center_push(jcal_center_t *self, const jcal_pair_t *pair)
     if (jcal_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
         return JCAL_REJECTED;
     }
+    jcal_inbox_put(&self->inbox, pair);
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_center_push_oriented(jcal_center_t *self, const jcal_pair_t *pair, const jcal_attitudes_t *attitudes)
+{
+    if ((self == NULL) || (pair == NULL) || (attitudes == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_inbox_full(&self->inbox)) {
+        return JCAL_ERR_FULL;
+    }
+    if (!is_unit(attitudes->q1) || !is_unit(attitudes->q2)) {
+        ++self->gate.samples;
+        ++self->gate.rejected_by[JCAL_REJECT_OUT_OF_RANGE];
+        return JCAL_REJECTED;
+    }
+    if (jcal_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
+        return JCAL_REJECTED;
+    }
+    self->attitudes[self->inbox.written % JCAL_INBOX_CAPACITY] = *attitudes;
     jcal_inbox_put(&self->inbox, pair);
     return JCAL_OK;
 }
@@ -171,16 +202,13 @@ static void add_moments(jcal_center_t *self, const jcal_kinematic_t *sample)
 /// Takes a sample into the sums at the estimate.
 static void add_residual(jcal_center_t *self, const jcal_kinematic_t *sample, float motion_s)
 {
-    jcal_center_residual_t residual;
-    if (!jcal_center_residual(sample, &self->sums.point, &residual)) {
+    const float square = jcal_center_sums_take(&self->work.sums, &self->cfg, sample, WATCH_MOST);
+    if (square < 0.0f) {
         return;
     }
-    const float variance = jcal_center_variance(&self->cfg, &residual);
-    const float square = jcal_min(residual.e * residual.e / variance, WATCH_MOST);
     jcal_watch_add(&self->watch, 0u, square / WATCH_SHARE, motion_s);
-    jcal_center_sums_add(&self->sums, &self->cfg, &residual, sample);
-    if (self->sums.time_s > MEMORY_S) {
-        jcal_center_sums_halve(&self->sums);
+    if (self->work.sums.time_s > ((self->cfg.method == JCAL_CENTER_LS) ? HEADING_MEMORY_S : MEMORY_S)) {
+        jcal_center_sums_halve(&self->work.sums);
     }
 }
 
@@ -204,6 +232,11 @@ static void take_in(jcal_center_t *self, const jcal_kinematic_t *sample)
     }
     if (self->has_point) {
         add_residual(self, sample, motion_s);
+    } else if (self->has_start) {
+        jcal_center_add_heading(sample, &self->start, &self->heading);
+        self->heading_s += sample->dt_s;
+    } else {
+        /* nothing to refer to yet */
     }
     if (jcal_watch_alarm(&self->watch)) {
         begin_anew(self, JCAL_MOVED);
@@ -253,29 +286,44 @@ static float apart(const jcal_center_place_t *a, const jcal_center_place_t *b)
     return jcal_max(jcal_vec3_norm(jcal_vec3_sub(a->r1, b->r1)), jcal_vec3_norm(jcal_vec3_sub(a->r2, b->r2)));
 }
 
+static void begin_sums(jcal_center_t *self, const jcal_center_place_t *place, jcal_plane_t heading)
+{
+    if (self->cfg.method == JCAL_CENTER_LS) {
+        jcal_center_sums_begin_oriented(&self->work.sums, place, heading);
+    } else {
+        jcal_center_sums_begin(&self->work.sums, place);
+    }
+}
+
 /// One Gauss-Newton step of the estimate, from the factor just made.
 static void step_point(jcal_center_t *self)
 {
-    float prior[JCAL_CENTER_UNKNOWNS];
     float d[JCAL_CENTER_UNKNOWNS];
-    jcal_center_prior(&self->cfg, prior);
-    jcal_center_sums_gradient(&self->sums, prior, d);
-    for (size_t i = 0u; i < JCAL_CENTER_UNKNOWNS; ++i) {
-        d[i] = -d[i];
-    }
-    jcal_chol_solve_scaled(self->inverse.factor, JCAL_CENTER_UNKNOWNS, self->inverse.scale, d);
-    jcal_center_place_t to = self->sums.point.place;
+    jcal_center_solve(&self->cfg, &self->work, d);
+    jcal_center_place_t to = self->work.sums.point.place;
     to.r1 = jcal_vec3_add(to.r1, jcal_vec3(d[0], d[1], d[2]));
     to.r2 = jcal_vec3_add(to.r2, jcal_vec3(d[3], d[4], d[5]));
-    const float way = apart(&to, &self->sums.anchor);
-    const float limit = LINEAR_M_S2 * LINEAR_M_S2 * self->sums.weight;
-    if (!((way * way * jcal_center_row_power(&self->sums)) > limit)) {
-        jcal_center_sums_move(&self->sums, d);
-    } else if (self->sums.time_s > SETTLED_S) {
-        jcal_center_sums_begin(&self->sums, &to);
+    const float way = apart(&to, &self->work.sums.anchor);
+    const float limit = LINEAR_M_S2 * LINEAR_M_S2 * self->work.sums.weight;
+    if (!((way * way * jcal_center_row_power(&self->work.sums)) > limit)) {
+        jcal_center_sums_move(&self->work.sums, d);
+    } else if (self->work.sums.time_s > SETTLED_S) {
+        begin_sums(self, &to, self->work.sums.point.heading);
         self->turn = TURN_FACTOR;
     } else {
         /* too little data to follow */
+    }
+}
+
+/// Finds a point to begin with.
+static void work_at_start(jcal_center_t *self)
+{
+    if (!self->has_start && (self->moving_s > MOVING_MIN_S)) {
+        step_start(self);
+    }
+    if (self->has_start && ((self->cfg.method != JCAL_CENTER_LS) || (self->heading_s > HEADING_S))) {
+        begin_sums(self, &self->start, self->heading);
+        self->has_point = true;
     }
 }
 
@@ -286,27 +334,21 @@ static void work(jcal_center_t *self)
     self->turn = (uint8_t)((turn + 1u) % TURNS);
     if (!self->has_point) {
         self->turn = TURN_START;
-        if (self->moving_s > MOVING_MIN_S) {
-            step_start(self);
-        }
-        if (self->has_start) {
-            jcal_center_sums_begin(&self->sums, &self->start);
-            self->has_point = true;
-        }
+        work_at_start(self);
         return;
     }
     if (turn == TURN_START) {
         return;
     }
     if (turn == TURN_FACTOR) {
-        if (!(self->sums.blocks >= 1.0f) || !jcal_center_judge(self, 0u)) {
+        if (!(self->work.sums.blocks >= 1.0f) || !jcal_center_judge(&self->cfg, &self->work, 0u)) {
             self->turn = TURN_FACTOR;
         }
     } else if (turn == TURN_STEP) {
         step_point(self);
     } else {
-        (void)jcal_center_judge(self, turn - TURN_COLUMNS + 1u);
-        if (self->verdict.status == (uint8_t)JCAL_READY) {
+        (void)jcal_center_judge(&self->cfg, &self->work, turn - TURN_COLUMNS + 1u);
+        if (self->work.verdict.status == (uint8_t)JCAL_READY) {
             jcal_watch_start(&self->watch);
         }
     }
@@ -317,12 +359,15 @@ jcal_status_t jcal_center_step(jcal_center_t *self)
     if (self == NULL) {
         return JCAL_ERR_ARG;
     }
+    const jcal_attitudes_t attitudes = self->attitudes[self->inbox.taken % JCAL_INBOX_CAPACITY];
     jcal_pair_t pair;
     if (!jcal_inbox_take(&self->inbox, &pair)) {
         return JCAL_IDLE;
     }
+    const bool is_oriented = self->cfg.method == JCAL_CENTER_LS;
     jcal_kinematic_t sample;
-    if (!jcal_kinematics_put(&self->kinematics, self->cfg.derivative, &pair, &sample)) {
+    if (!jcal_kinematics_put(&self->kinematics, self->cfg.derivative, &pair, is_oriented ? &attitudes : NULL,
+                             &sample)) {
         return JCAL_OK;
     }
     self->odd = !self->odd;

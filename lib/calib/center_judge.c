@@ -55,11 +55,11 @@ static float excess_of(const jcal_center_sums_t *sums)
     return jcal_max(sums->cost / jcal_max(sums->noise, FLT_MIN), EXCESS_MIN);
 }
 
-static bool factor(jcal_center_t *self)
+static bool factor(const jcal_center_config_t *cfg, jcal_center_work_t *self)
 {
     jcal_center_inverse_t *const inverse = &self->inverse;
     float prior[N];
-    jcal_center_prior(&self->cfg, prior);
+    jcal_center_prior(cfg, prior);
     (void)memcpy(inverse->factor, self->sums.matrix, sizeof inverse->factor);
     for (size_t i = 0u; i < N; ++i) {
         inverse->factor[jcal_sym_at(i, i)] += prior[i];
@@ -76,7 +76,7 @@ static void column(jcal_center_inverse_t *inverse, size_t which)
 }
 
 /// Covariances of the vector of one sensor (0 or 1).
-static void covariance(jcal_center_t *self, size_t sensor)
+static void covariance(const jcal_center_config_t *cfg, jcal_center_work_t *self, size_t sensor)
 {
     jcal_center_inverse_t *const inverse = &self->inverse;
     const jcal_center_sums_t *const sums = &self->sums;
@@ -84,7 +84,7 @@ static void covariance(jcal_center_t *self, size_t sensor)
     const float counted = jcal_max(sums->blocks - BLOCKS_LOST, 1.0f) * JCAL_CENTER_BLOCK_S;
     const float few = jcal_max(sums->time_s / counted, 1.0f);
     float prior[N];
-    jcal_center_prior(&self->cfg, prior);
+    jcal_center_prior(cfg, prior);
     for (size_t i = 0u; i < 3u; ++i) {
         const float *const x = inverse->columns[(3u * sensor) + i];
         float spread[N]; /* (S + P) x */
@@ -142,7 +142,7 @@ static float bound(float radius_m, float hidden_m, float mismatch_m)
 
 /// Finds the direction of (r1, r2) of whose information the largest share may come from wrong rows, W = D V D with V the covariance by
 /// the matrix alone and D D the information that wrong rows make. Returns the share; `y` (6): V holds share y y'.
-static float find_fake(jcal_center_t *self, float *y)
+static float find_fake(jcal_center_work_t *self, float *y)
 {
     jcal_center_inverse_t *const inverse = &self->inverse;
     float d[2];
@@ -184,7 +184,7 @@ typedef struct {
 } doubt_t;
 
 /// Takes information that wrong rows may have made out of a covariance c (3 x 3, packed) of one sensor's vector.
-static void deflate(const jcal_center_t *self, size_t sensor, const doubt_t *doubt, float *c)
+static void deflate(const jcal_center_work_t *self, size_t sensor, const doubt_t *doubt, float *c)
 {
     const float share = doubt->share;
     const float *const own = &doubt->y[3u * sensor];
@@ -207,11 +207,12 @@ static bool is_along_axis(const float *y, jcal_vec3_t axis)
     return (along * along) > (ALONG_COSINE2 * jcal_vec3_dot(own, own));
 }
 
-static bounds_t bounds_of(const jcal_center_t *self, size_t sensor, const doubt_t *doubt)
+static bounds_t bounds_of(const jcal_center_config_t *cfg, const jcal_center_work_t *self, size_t sensor,
+                          const doubt_t *doubt)
 {
     const jcal_center_inverse_t *const inverse = &self->inverse;
-    const jcal_vec3_t axis = (sensor == 0u) ? self->cfg.hinge_axis1 : self->cfg.hinge_axis2;
-    const float mismatch_m = self->cfg.mismatch_m;
+    const jcal_vec3_t axis = (sensor == 0u) ? cfg->hinge_axis1 : cfg->hinge_axis2;
+    const float mismatch_m = cfg->mismatch_m;
     const bool by_scatter = radius(inverse->covariance[sensor]) > radius(inverse->least[sensor]);
     float known[6];
     float larger[6];
@@ -236,11 +237,12 @@ static bounds_t bounds_of(const jcal_center_t *self, size_t sensor, const doubt_
 }
 
 /// What is missing, if anything; the most important first.
-static void name_what_is_missing(jcal_center_t *self, const bounds_t *b, float hidden_m)
+static void name_what_is_missing(const jcal_center_config_t *cfg, jcal_center_work_t *self, const bounds_t *b,
+                                 float hidden_m)
 {
     jcal_center_verdict_t *const verdict = &self->verdict;
     const jcal_center_sums_t *const sums = &self->sums;
-    const float limit = self->cfg.max_bound_m * ((verdict->status == (uint8_t)JCAL_READY) ? HYSTERESIS : 1.0f);
+    const float limit = cfg->max_bound_m * ((verdict->status == (uint8_t)JCAL_READY) ? HYSTERESIS : 1.0f);
     const unsigned worse = (b[1].all > b[0].all) ? 1u : 0u;
     const float still = TURN_MIN * sums->time_s;
     verdict->weak = (uint8_t)JCAL_WEAK_NONE;
@@ -254,7 +256,7 @@ static void name_what_is_missing(jcal_center_t *self, const bounds_t *b, float h
     if ((sums->turn1 < still) || (sums->turn2 < still)) {
         verdict->reason = (uint8_t)JCAL_REASON_NO_MOTION;
         verdict->hint = (uint8_t)((sums->turn1 < sums->turn2) ? JCAL_HINT_MOVE_SEGMENT1 : JCAL_HINT_MOVE_SEGMENT2);
-    } else if (bound(0.0f, hidden_m, self->cfg.mismatch_m) > limit) {
+    } else if (bound(0.0f, hidden_m, cfg->mismatch_m) > limit) {
         verdict->reason = (uint8_t)JCAL_REASON_DOES_NOT_FIT;
         verdict->hint = (uint8_t)JCAL_HINT_CHECK_SENSORS;
     } else if (b[worse].second > limit) {
@@ -264,7 +266,7 @@ static void name_what_is_missing(jcal_center_t *self, const bounds_t *b, float h
     }
 }
 
-static void judge(jcal_center_t *self)
+static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
 {
     jcal_center_verdict_t *const verdict = &self->verdict;
     const jcal_center_sums_t *const sums = &self->sums;
@@ -277,9 +279,9 @@ static void judge(jcal_center_t *self)
     doubt.hidden_m = ((HIDDEN_SHARE * sqrtf(share * lasting)) + share) * length;
     doubt.share = find_fake(self, doubt.y);
     const bool enough = sums->blocks >= BLOCKS_MIN;
-    const bounds_t b[2] = {enough ? bounds_of(self, 0u, &doubt) : unknown_bounds(),
-                           enough ? bounds_of(self, 1u, &doubt) : unknown_bounds()};
-    name_what_is_missing(self, b, doubt.hidden_m);
+    const bounds_t b[2] = {enough ? bounds_of(cfg, self, 0u, &doubt) : unknown_bounds(),
+                           enough ? bounds_of(cfg, self, 1u, &doubt) : unknown_bounds()};
+    name_what_is_missing(cfg, self, b, doubt.hidden_m);
     verdict->bound1_m = b[0].all;
     verdict->bound2_m = b[1].all;
     verdict->weakest1_m = b[0].weakest;
@@ -303,17 +305,17 @@ static void judge(jcal_center_t *self)
     }
 }
 
-bool jcal_center_judge(jcal_center_t *self, unsigned slice)
+bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self, unsigned slice)
 {
     if (slice == 0u) {
-        return factor(self);
+        return factor(cfg, self);
     }
     if (slice <= 6u) {
         column(&self->inverse, slice - 1u);
     } else if (slice <= 8u) {
-        covariance(self, slice - 7u);
+        covariance(cfg, self, slice - 7u);
     } else {
-        judge(self);
+        judge(cfg, self);
     }
     return true;
 }
@@ -328,4 +330,15 @@ void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_
     verdict->status = (uint8_t)status;
     verdict->reason = (uint8_t)JCAL_REASON_NO_DATA;
     verdict->hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+}
+
+void jcal_center_solve(const jcal_center_config_t *cfg, const jcal_center_work_t *self, float *d)
+{
+    float prior[N];
+    jcal_center_prior(cfg, prior);
+    jcal_center_sums_gradient(&self->sums, prior, d);
+    for (size_t i = 0u; i < N; ++i) {
+        d[i] = -d[i];
+    }
+    jcal_chol_solve_scaled(self->inverse.factor, N, self->inverse.scale, d);
 }

@@ -18,7 +18,10 @@
 /// Does slice `slice` of the work on bounds and status. Slice 0 may fail: then the slices after it have nothing to do.
 ///
 /// Cost: at most about 900 multiply-adds.
-bool jcal_center_judge(jcal_center_t *self, unsigned slice);
+bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self, unsigned slice);
+
+/// d (12) <- the Gauss-Newton step of the estimate, from the factor that slice 0 made.
+void jcal_center_solve(const jcal_center_config_t *cfg, const jcal_center_work_t *self, float *d);
 
 /// Bounds and status before there is an estimate.
 void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_t status);

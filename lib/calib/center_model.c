@@ -4,6 +4,7 @@
 #include "calib/center_model.h"
 
 #include "jointcal/vec3.h"
+#include "math/plane.h"
 #include "math/sym.h"
 
 #include <stddef.h>
@@ -138,10 +139,53 @@ bool jcal_center_residual(const jcal_kinematic_t *sample, const jcal_center_poin
     if (!((n1 > FORCE_MIN) && (n2 > FORCE_MIN))) {
         return false;
     }
+    out->part = 0u;
     own_row(&sample->body1, jcal_vec3_scale(v1, 1.0f / n1), &out->row[0], &out->row[6]);
     own_row(&sample->body2, jcal_vec3_scale(v2, -1.0f / n2), &out->row[3], &out->row[9]);
     out->e = n1 - n2;
     out->e_apart = jcal_vec3_norm(a1) - jcal_vec3_norm(a2);
     out->turn2 = jcal_vec3_dot(turn1, turn1) + jcal_vec3_dot(turn2, turn2);
     return true;
+}
+
+/* Rz v. */
+static jcal_vec3_t turned(jcal_plane_t heading, jcal_vec3_t v)
+{
+    return jcal_vec3((heading.re * v.x) - (heading.im * v.y), (heading.im * v.x) + (heading.re * v.y), v.z);
+}
+
+static float component(jcal_vec3_t v, unsigned part)
+{
+    return (part == 0u) ? v.x : ((part == 1u) ? v.y : v.z);
+}
+
+void jcal_center_residual_oriented(const jcal_kinematic_t *sample, const jcal_center_point_t *point, unsigned part,
+                                   jcal_center_residual_t *out)
+{
+    const jcal_body_t *const body1 = &sample->body1;
+    const jcal_body_t *const body2 = &sample->body2;
+    const jcal_vec3_t turn1 = jcal_body_times(body1, point->place.r1);
+    const jcal_vec3_t turn2 = jcal_body_times(body2, point->place.r2);
+    const jcal_vec3_t apart = jcal_vec3_sub(body1->a, turned(point->heading, body2->a));
+    const jcal_vec3_t at2 = turned(point->heading, jcal_vec3_sub(body2->a, turn2));
+    const jcal_vec3_t e = jcal_vec3_sub(jcal_vec3_sub(body1->a, turn1), at2);
+    *out = (jcal_center_residual_t){0};
+    out->e = component(e, part);
+    out->e_apart = component(apart, part);
+    out->turn2 = jcal_vec3_dot(turn1, turn1) + jcal_vec3_dot(turn2, turn2);
+    out->part = part;
+    for (size_t i = 0u; i < 3u; ++i) {
+        out->row[i] = -component(body1->k[i], part);
+        out->row[3u + i] = component(turned(point->heading, body2->k[i]), part);
+    }
+    out->row[6] = component(jcal_vec3(at2.y, -at2.x, 0.0f), part);
+}
+
+void jcal_center_add_heading(const jcal_kinematic_t *sample, const jcal_center_place_t *place, jcal_plane_t *sum)
+{
+    const jcal_vec3_t f1 = jcal_vec3_sub(sample->body1.a, jcal_body_times(&sample->body1, place->r1));
+    const jcal_vec3_t f2 = jcal_vec3_sub(sample->body2.a, jcal_body_times(&sample->body2, place->r2));
+    const jcal_plane_t flat1 = {f1.x, f1.y};
+    const jcal_plane_t flat2 = {f2.x, f2.y};
+    *sum = jcal_plane_add(*sum, 1.0f, jcal_plane_against(flat2, flat1));
 }

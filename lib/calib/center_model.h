@@ -33,11 +33,22 @@ typedef struct {
     float e;        ///< m/s^2.
     float e_apart;  ///< The residual if both sensors sat on the joint: |a1 - b1| - |a2 - b2|.
     float turn2;    ///< |K1 r1|^2 + |K2 r2|^2.
-    float row[12];  ///< de / d(r1, r2, b1, b2).
+    float row[12];  ///< de / d(r1, r2, b1, b2), or de / d(r1, r2, heading, nothing).
+    unsigned part;  ///< Which of the sample's residuals it is.
 } jcal_center_residual_t;
 
 /// False if there is no direction: a specific force without gravity and motion.
 bool jcal_center_residual(const jcal_kinematic_t *sample, const jcal_center_point_t *point,
                           jcal_center_residual_t *out);
+
+/// Residuals of a sample with orientations: e = R1 (a1 - K1 r1) - Rz(heading) R2 (a2 - K2 r2), three parts. (9) to (14) of [OLS17].
+#define JCAL_CENTER_PARTS 3u
+
+/// One of them.
+void jcal_center_residual_oriented(const jcal_kinematic_t *sample, const jcal_center_point_t *point, unsigned part,
+                                   jcal_center_residual_t *out);
+
+/// sum <- sum + |f1| |f2| exp(i h), f the horizontal parts of what both sensors feel at the joint, h the heading by which they agree.
+void jcal_center_add_heading(const jcal_kinematic_t *sample, const jcal_center_place_t *place, jcal_plane_t *sum);
 
 #endif /* JCAL_CENTER_MODEL_H */

@@ -3,6 +3,7 @@
 /// What the stream engine of the joint centre tells its user.
 #include "jointcal/center.h"
 #include "jointcal/vec3.h"
+#include "math/angle.h"
 #include "math/scalar.h"
 
 #include <float.h>
@@ -25,7 +26,7 @@ static void shift_along_axis(const jcal_center_config_t *cfg, jcal_center_place_
 
 static void tell_verdict(const jcal_center_t *self, jcal_center_result_t *out)
 {
-    const jcal_center_verdict_t *const verdict = &self->verdict;
+    const jcal_center_verdict_t *const verdict = &self->work.verdict;
     out->status = (jcal_calibration_t)verdict->status;
     out->weak = (jcal_weak_t)verdict->weak;
     out->hint = (jcal_hint_t)verdict->hint;
@@ -57,12 +58,13 @@ jcal_status_t jcal_center_get(const jcal_center_t *self, jcal_center_result_t *o
     tell_verdict(self, &result);
     result.has_center = self->has_point;
     if (self->has_point) {
-        jcal_center_place_t place = self->sums.point.place;
+        jcal_center_place_t place = self->work.sums.point.place;
         shift_along_axis(&self->cfg, &place);
         result.joint_to_sensor1_m = place.r1;
         result.joint_to_sensor2_m = place.r2;
-        result.acc_bias1_m_s2 = self->sums.point.b1;
-        result.acc_bias2_m_s2 = self->sums.point.b2;
+        result.acc_bias1_m_s2 = self->work.sums.point.b1;
+        result.acc_bias2_m_s2 = self->work.sums.point.b2;
+        result.heading_offset_rad = jcal_atan2(self->work.sums.point.heading.im, self->work.sums.point.heading.re);
     }
     result.t_us = self->t_us;
     result.samples = self->gate.samples;

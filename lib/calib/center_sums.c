@@ -4,6 +4,7 @@
 #include "calib/center_sums.h"
 
 #include "jointcal/vec3.h"
+#include "math/plane.h"
 #include "math/scalar.h"
 #include "math/sym.h"
 
@@ -18,6 +19,8 @@
 #define REACH_M 0.3f
 /// Standard deviation of a bias that is not estimated, m/s^2.
 #define NO_BIAS 1e-4f
+/// Standard deviation of a heading of which nothing is known, rad.
+#define NO_HEADING_RAD 3.0f
 /// A step that changes the cost by this many times its variance is more than what blocks can be moved by.
 #define LARGE_STEP 50.0f
 /// Samples after which what sensors' noise left in a residual is forgotten: the derivative's taps meet no more.
@@ -27,7 +30,15 @@ void jcal_center_sums_begin(jcal_center_sums_t *self, const jcal_center_place_t 
 {
     (void)memset(self, 0, sizeof *self);
     self->point.place = *place;
+    self->point.heading.re = 1.0f;
     self->anchor = *place;
+}
+
+void jcal_center_sums_begin_oriented(jcal_center_sums_t *self, const jcal_center_place_t *place, jcal_plane_t heading)
+{
+    jcal_center_sums_begin(self, place);
+    self->point.heading = jcal_plane_direction(heading);
+    self->point.is_oriented = true;
 }
 
 float jcal_center_variance(const jcal_center_config_t *cfg, const jcal_center_residual_t *residual)
@@ -48,11 +59,11 @@ static void close_block(jcal_center_sums_t *self)
 }
 
 void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *cfg,
-                          const jcal_center_residual_t *residual, const jcal_kinematic_t *sample)
+                          const jcal_center_residual_t *residual, float dt_s)
 {
-    const float dt_s = sample->dt_s;
     const float variance = jcal_center_variance(cfg, residual);
     const float readings = dt_s / JCAL_CENTER_READING_S;
+    float *const recent = self->recent[residual->part];
     float weight = readings / variance;
     if (cfg->method == JCAL_CENTER_SA) {
         /* the sum of |e| has, where it is, the gradient of e^2 weighed by 1 / |e| */
@@ -71,11 +82,16 @@ void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *
     self->noise += readings;
     self->weight += weight;
     self->raw += pull * residual->e;
-    self->lagged += pull * self->recent[0];
+    self->lagged += pull * recent[0];
     for (size_t i = 0u; i + 1u < LAG; ++i) {
-        self->recent[i] = self->recent[i + 1u];
+        recent[i] = recent[i + 1u];
     }
-    self->recent[LAG - 1u] = residual->e;
+    recent[LAG - 1u] = residual->e;
+}
+
+void jcal_center_sums_advance(jcal_center_sums_t *self, const jcal_kinematic_t *sample)
+{
+    const float dt_s = sample->dt_s;
     self->time_s += dt_s;
     self->turn1 += dt_s * sample->body1.rate2;
     self->turn2 += dt_s * sample->body2.rate2;
@@ -85,11 +101,42 @@ void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *
     }
 }
 
+/// The square of a residual over what is usual, no more than `most`.
+static float ratio(const jcal_center_config_t *cfg, const jcal_center_residual_t *residual, float most)
+{
+    return jcal_min(residual->e * residual->e / jcal_center_variance(cfg, residual), most);
+}
+
+float jcal_center_sums_take(jcal_center_sums_t *self, const jcal_center_config_t *cfg, const jcal_kinematic_t *sample,
+                            float most)
+{
+    jcal_center_residual_t residual;
+    float square = 0.0f;
+    if (self->point.is_oriented) {
+        for (unsigned part = 0u; part < JCAL_CENTER_PARTS; ++part) {
+            jcal_center_residual_oriented(sample, &self->point, part, &residual);
+            square += ratio(cfg, &residual, most) / (float)JCAL_CENTER_PARTS;
+            jcal_center_sums_add(self, cfg, &residual, sample->dt_s);
+        }
+    } else if (jcal_center_residual(sample, &self->point, &residual)) {
+        square = ratio(cfg, &residual, most);
+        jcal_center_sums_add(self, cfg, &residual, sample->dt_s);
+    } else {
+        return -1.0f;
+    }
+    jcal_center_sums_advance(self, sample);
+    return square;
+}
+
 void jcal_center_prior(const jcal_center_config_t *cfg, float *prior)
 {
-    const float bias = jcal_max(cfg->acc_bias_m_s2, NO_BIAS);
+    const bool is_oriented = cfg->method == JCAL_CENTER_LS;
+    const float bias = is_oriented ? NO_BIAS : jcal_max(cfg->acc_bias_m_s2, NO_BIAS);
     for (size_t i = 0u; i < N; ++i) {
         prior[i] = (i < 6u) ? (1.0f / (REACH_M * REACH_M)) : (1.0f / (bias * bias));
+    }
+    if (is_oriented) {
+        prior[6] = 1.0f / (NO_HEADING_RAD * NO_HEADING_RAD);
     }
 }
 
@@ -172,8 +219,12 @@ void jcal_center_sums_move(jcal_center_sums_t *self, const float *d)
     }
     self->point.place.r1 = moved(self->point.place.r1, &d[0]);
     self->point.place.r2 = moved(self->point.place.r2, &d[3]);
-    self->point.b1 = moved(self->point.b1, &d[6]);
-    self->point.b2 = moved(self->point.b2, &d[9]);
+    if (self->point.is_oriented) {
+        self->point.heading = jcal_plane_direction(jcal_plane_times(self->point.heading, jcal_plane_turn(d[6])));
+    } else {
+        self->point.b1 = moved(self->point.b1, &d[6]);
+        self->point.b2 = moved(self->point.b2, &d[9]);
+    }
 }
 
 float jcal_center_row_power(const jcal_center_sums_t *self)

@@ -19,14 +19,25 @@
 /// Begins at a place; biases unknown, zero.
 void jcal_center_sums_begin(jcal_center_sums_t *self, const jcal_center_place_t *place);
 
+/// The same with orientations and a heading offset, of any length but zero.
+void jcal_center_sums_begin_oriented(jcal_center_sums_t *self, const jcal_center_place_t *place, jcal_plane_t heading);
+
 /// Variance that the config calls usual for a residual, (m/s^2)^2.
 float jcal_center_variance(const jcal_center_config_t *cfg, const jcal_center_residual_t *residual);
 
-/// Takes in a sample's residual at the estimate.
-void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *cfg,
-                          const jcal_center_residual_t *residual, const jcal_kinematic_t *sample);
+/// Takes in all residuals of a sample at the estimate. Returns the mean of their squares over what the config calls usual, none more
+/// than `most`; negative if the sample has no direction and was left out.
+float jcal_center_sums_take(jcal_center_sums_t *self, const jcal_center_config_t *cfg, const jcal_kinematic_t *sample,
+                            float most);
 
-/// The prior's information on each unknown (12), 1 / variance; in units of the sums.
+/// Takes in one residual, which stands for dt_s ...
+void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *cfg,
+                          const jcal_center_residual_t *residual, float dt_s);
+
+/// ... and the time that passed with the sample.
+void jcal_center_sums_advance(jcal_center_sums_t *self, const jcal_kinematic_t *sample);
+
+/// The prior's information on each unknown (12), 1 / variance; in units of the sums. Of the heading nothing is known beforehand.
 void jcal_center_prior(const jcal_center_config_t *cfg, float *prior);
 
 /// Half the gradient at the estimate, prior included (12).

@@ -43,6 +43,14 @@ static jcal_imu_t mean_of(const jcal_imu_t *sum, float share)
     return mean;
 }
 
+/// sum <- sum + q; q and -q are the same orientation, and that nearer to the sum is taken.
+static void add_attitude(jcal_quat_t *sum, jcal_quat_t q)
+{
+    const float dot = (sum->w * q.w) + (sum->x * q.x) + (sum->y * q.y) + (sum->z * q.z);
+    const float sign = (dot < 0.0f) ? -1.0f : 1.0f;
+    *sum = jcal_quat(sum->w + (sign * q.w), sum->x + (sign * q.x), sum->y + (sign * q.y), sum->z + (sign * q.z));
+}
+
 /// The bin `place` after the oldest, from a full ring.
 static const jcal_bin_t *bin(const jcal_kinematics_t *self, size_t place)
 {
@@ -127,6 +135,16 @@ static jcal_body_t body_of(const jcal_kinematics_t *self, unsigned sensor, jcal_
     return body_at(self, sensor, MIDDLE, (derivative == JCAL_DERIVATIVE_FIVE_POINT) ? five_point : symmetric);
 }
 
+/// Turns a body to the earth frame.
+static void to_earth(jcal_body_t *body, jcal_quat_t sum)
+{
+    const jcal_quat_t q = jcal_quat_normalise(sum);
+    body->a = jcal_quat_rotate(q, body->a);
+    for (size_t i = 0u; i < 3u; ++i) {
+        body->k[i] = jcal_quat_rotate(q, body->k[i]);
+    }
+}
+
 /// Puts the bin that is full into the ring.
 static void close_bin(jcal_kinematics_t *self, uint64_t now_us)
 {
@@ -134,6 +152,7 @@ static void close_bin(jcal_kinematics_t *self, uint64_t now_us)
     jcal_bin_t *const slot = &self->ring[self->next];
     slot->imu1 = mean_of(&self->sum.imu1, share);
     slot->imu2 = mean_of(&self->sum.imu2, share);
+    slot->attitudes = self->sum.attitudes; /* any length will do */
     slot->t_us = (uint32_t)(self->begin_us + ((now_us - self->begin_us) / 2u));
     self->next = (uint8_t)((self->next + 1u) % JCAL_BINS);
     self->filled = (uint8_t)((self->filled < JCAL_BINS) ? (self->filled + 1u) : JCAL_BINS);
@@ -162,7 +181,7 @@ static void follow_time(jcal_kinematics_t *self, uint64_t t_us)
 }
 
 bool jcal_kinematics_put(jcal_kinematics_t *self, jcal_derivative_t derivative, const jcal_pair_t *pair,
-                         jcal_kinematic_t *out)
+                         const jcal_attitudes_t *attitudes, jcal_kinematic_t *out)
 {
     follow_time(self, pair->t_us);
     if (self->in_bin == 0u) {
@@ -171,6 +190,10 @@ bool jcal_kinematics_put(jcal_kinematics_t *self, jcal_derivative_t derivative, 
     }
     add_reading(&self->sum.imu1, &pair->imu1);
     add_reading(&self->sum.imu2, &pair->imu2);
+    if (attitudes != NULL) {
+        add_attitude(&self->sum.attitudes.q1, attitudes->q1);
+        add_attitude(&self->sum.attitudes.q2, attitudes->q2);
+    }
     self->in_bin = (uint8_t)(self->in_bin + 1u);
     if ((self->interval_s == 0.0f) || (self->in_bin < self->per_bin)) {
         return false;
@@ -184,6 +207,10 @@ bool jcal_kinematics_put(jcal_kinematics_t *self, jcal_derivative_t derivative, 
     const float spacing_s = (float)span_us * (MICROSECONDS / (float)(JCAL_BINS - 1u));
     out->body1 = body_of(self, 1u, derivative, spacing_s);
     out->body2 = body_of(self, 2u, derivative, spacing_s);
+    if (attitudes != NULL) {
+        to_earth(&out->body1, bin(self, MIDDLE)->attitudes.q1);
+        to_earth(&out->body2, bin(self, MIDDLE)->attitudes.q2);
+    }
     out->t_us = pair->t_us - since_us;
     out->dt_s = spacing_s;
     return true;

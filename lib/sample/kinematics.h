@@ -10,6 +10,7 @@
 #define JCAL_KINEMATICS_PRIVATE_H
 
 #include "jointcal/kinematics.h"
+#include "jointcal/quat.h"
 #include "jointcal/vec3.h"
 
 /// One body at one time.
@@ -19,7 +20,7 @@ typedef struct {
     float rate2;       ///< |w|^2, (rad/s)^2.
 } jcal_body_t;
 
-/// Both bodies at one time.
+/// Both bodies at one time, each in its sensor's frame, or in its earth frame if its orientation is known.
 typedef struct {
     jcal_body_t body1, body2;
     uint64_t t_us;
@@ -29,11 +30,13 @@ typedef struct {
 /// Forgets all samples.
 void jcal_kinematics_begin(jcal_kinematics_t *self);
 
-/// Takes in the next sample. True if that completed a bin and there is an `out`, three bins ago (or fewer, by the derivative).
+/// Takes in the next sample. True if that completed a bin and there is an `out`, three bins ago.
 ///
 /// A distance of samples that differs by more than half from the one before begins a new chain of bins.
+/// `attitudes` may be null; with them a and the columns of K are turned to each sensor's earth frame, while r, to which K is applied,
+/// stays in the sensor's frame.
 bool jcal_kinematics_put(jcal_kinematics_t *self, jcal_derivative_t derivative, const jcal_pair_t *pair,
-                         jcal_kinematic_t *out);
+                         const jcal_attitudes_t *attitudes, jcal_kinematic_t *out);
 
 /// K r of a body.
 static inline jcal_vec3_t jcal_body_times(const jcal_body_t *body, jcal_vec3_t r)

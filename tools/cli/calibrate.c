@@ -139,8 +139,7 @@ static exit_status_t run_recording(session_t *session)
     return status;
 }
 
-exit_status_t calibrate(const calibrate_options_t *options, const calibrate_joint_t *joint, void *self,
-                        float max_bound)
+exit_status_t calibrate(const calibrate_options_t *options, const calibrate_joint_t *joint, void *self, float max_bound)
 {
     session_t *session = calloc(1, sizeof *session);
     if (session == NULL) {

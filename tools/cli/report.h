@@ -48,7 +48,7 @@ typedef struct {
     row_clock_t clock;
     bool was_ready;    ///< Ready was entered at least once.
     int64_t ready_us;  ///< When it was entered first, as in the file.
-    float max_bound;  ///< What the bounds must be below, rad or m.
+    float max_bound;   ///< What the bounds must be below, rad or m.
 } report_t;
 
 /// Begins a line of JSON: the keys from `event` to `reason`. `event` is estimate, ready, moved or end.
