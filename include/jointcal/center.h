@@ -151,13 +151,18 @@ typedef struct {
     jcal_center_inverse_t inverse;
 } jcal_center_work_t;
 
-/// The stream engine. Caller-owned, plain, copyable at any time between calls; all members are private.
+/// Private: from readings to samples.
 typedef struct {
-    jcal_center_config_t cfg;
     jcal_gate_t gate;
     jcal_inbox_t inbox;
     jcal_attitudes_t attitudes[JCAL_INBOX_CAPACITY];  ///< Of the pairs in the inbox.
     jcal_kinematics_t kinematics;
+} jcal_center_input_t;
+
+/// The stream engine. Caller-owned, plain, copyable at any time between calls; all members are private.
+typedef struct {
+    jcal_center_config_t cfg;
+    jcal_center_input_t input;
     float moments[190];         ///< Packed 19 x 19: products of the features.
     jcal_center_place_t start;  ///< Minimum of the moments.
     jcal_plane_t heading;       ///< Sum that points along the heading offset at `start` ...

@@ -30,6 +30,20 @@ typedef struct {
     uint32_t t_us;  ///< Middle of the bin, low half of the time.
 } jcal_bin_t;
 
+/// Private: one body at one time.
+typedef struct {
+    jcal_vec3_t a;     ///< Specific force of the sensor, m/s^2.
+    jcal_vec3_t k[3];  ///< Columns of K, 1/s^2.
+    float rate2;       ///< |w|^2, (rad/s)^2.
+} jcal_body_t;
+
+/// Private: both bodies at one time, each in its sensor's frame, or in its earth frame if its orientation is known.
+typedef struct {
+    jcal_body_t body1, body2;
+    uint64_t t_us;
+    float dt_s;  ///< The time it stands for.
+} jcal_kinematic_t;
+
 /// Private: bins that a derivative needs.
 #define JCAL_BINS 7u
 

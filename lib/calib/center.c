@@ -3,6 +3,7 @@
 /// Stream engine of the joint centre: config, samples into sums, and the schedule of the work.
 #include "jointcal/center.h"
 
+#include "calib/center_input.h"
 #include "calib/center_judge.h"
 #include "calib/center_model.h"
 #include "calib/center_sums.h"
@@ -11,7 +12,6 @@
 #include "math/scalar.h"
 #include "math/solve.h"
 #include "math/sym.h"
-#include "sample/inbox.h"
 
 #include <float.h>
 #include <math.h>
@@ -136,8 +136,7 @@ jcal_status_t jcal_center_init(jcal_center_t *self, const jcal_center_config_t *
     const jcal_center_config_t cfg = *config; /* the caller may hand over self->cfg */
     (void)memset(self, 0, sizeof *self);
     self->cfg = cfg;
-    jcal_gate_init(&self->gate);
-    jcal_kinematics_begin(&self->kinematics);
+    jcal_center_input_begin(&self->input);
     begin_anew(self, JCAL_COLLECTING);
     return JCAL_OK;
 }
@@ -147,25 +146,12 @@ jcal_status_t jcal_center_reset(jcal_center_t *self)
     return (self == NULL) ? JCAL_ERR_ARG : jcal_center_init(self, &self->cfg);
 }
 
-/// Length within 0.05 of 1; not so for NaN.
-static bool is_unit(jcal_quat_t q)
-{
-    return jcal_within((q.w * q.w) + (q.x * q.x) + (q.y * q.y) + (q.z * q.z), 0.9025f, 1.1025f);
-}
-
 jcal_status_t jcal_center_push(jcal_center_t *self, const jcal_pair_t *pair)
 {
     if ((self == NULL) || (pair == NULL) || (self->cfg.method == JCAL_CENTER_LS)) {
         return JCAL_ERR_ARG;
     }
-    if (jcal_inbox_full(&self->inbox)) {
-        return JCAL_ERR_FULL;
-    }
-    if (jcal_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
-        return JCAL_REJECTED;
-    }
-    jcal_inbox_put(&self->inbox, pair);
-    return JCAL_OK;
+    return jcal_center_input_push(&self->input, &self->cfg, pair, NULL);
 }
 
 jcal_status_t jcal_center_push_oriented(jcal_center_t *self, const jcal_pair_t *pair, const jcal_attitudes_t *attitudes)
@@ -173,20 +159,7 @@ jcal_status_t jcal_center_push_oriented(jcal_center_t *self, const jcal_pair_t *
     if ((self == NULL) || (pair == NULL) || (attitudes == NULL)) {
         return JCAL_ERR_ARG;
     }
-    if (jcal_inbox_full(&self->inbox)) {
-        return JCAL_ERR_FULL;
-    }
-    if (!is_unit(attitudes->q1) || !is_unit(attitudes->q2)) {
-        ++self->gate.samples;
-        ++self->gate.rejected_by[JCAL_REJECT_OUT_OF_RANGE];
-        return JCAL_REJECTED;
-    }
-    if (jcal_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
-        return JCAL_REJECTED;
-    }
-    self->attitudes[self->inbox.written % JCAL_INBOX_CAPACITY] = *attitudes;
-    jcal_inbox_put(&self->inbox, pair);
-    return JCAL_OK;
+    return jcal_center_input_push(&self->input, &self->cfg, pair, attitudes);
 }
 
 /// Takes a sample into the moments.
@@ -216,10 +189,6 @@ static void take_in(jcal_center_t *self, const jcal_kinematic_t *sample)
 {
     const float rate1 = sample->body1.rate2;
     const float rate2 = sample->body2.rate2;
-    const float least = self->cfg.min_rate_rad_s * self->cfg.min_rate_rad_s;
-    if ((rate1 < least) && (rate2 < least)) {
-        return;
-    }
     const float motion_s = sample->dt_s * jcal_watch_motion(rate1 + rate2);
     self->t_us = sample->t_us;
     if (self->odd || !self->has_point) {
@@ -359,19 +328,18 @@ jcal_status_t jcal_center_step(jcal_center_t *self)
     if (self == NULL) {
         return JCAL_ERR_ARG;
     }
-    const jcal_attitudes_t attitudes = self->attitudes[self->inbox.taken % JCAL_INBOX_CAPACITY];
-    jcal_pair_t pair;
-    if (!jcal_inbox_take(&self->inbox, &pair)) {
+    jcal_kinematic_t sample;
+    const jcal_center_input_event_t event = jcal_center_input_take(&self->input, &self->cfg, &sample);
+    if (event == JCAL_CENTER_NONE) {
         return JCAL_IDLE;
     }
-    const bool is_oriented = self->cfg.method == JCAL_CENTER_LS;
-    jcal_kinematic_t sample;
-    if (!jcal_kinematics_put(&self->kinematics, self->cfg.derivative, &pair, is_oriented ? &attitudes : NULL,
-                             &sample)) {
+    if (event == JCAL_CENTER_WAITS) {
         return JCAL_OK;
     }
     self->odd = !self->odd;
-    take_in(self, &sample);
+    if (event == JCAL_CENTER_SAMPLE) {
+        take_in(self, &sample);
+    }
     if (!self->odd) {
         work(self);
     }

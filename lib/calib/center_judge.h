@@ -26,4 +26,8 @@ void jcal_center_solve(const jcal_center_config_t *cfg, const jcal_center_work_t
 /// Bounds and status before there is an estimate.
 void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_t status);
 
+/// out <- what is known; engine and time are the engine's to add.
+void jcal_center_report(const jcal_center_config_t *cfg, const jcal_center_work_t *work,
+                        const jcal_center_input_t *input, bool has_point, jcal_center_result_t *out);
+
 #endif /* JCAL_CENTER_JUDGE_H */

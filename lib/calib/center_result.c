@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// What the stream engine of the joint centre tells its user.
-#include "jointcal/center.h"
+/// What the engines of the joint centre tell their user.
+#include "calib/center_judge.h"
 #include "jointcal/vec3.h"
 #include "math/angle.h"
 #include "math/scalar.h"
@@ -24,9 +24,22 @@ static void shift_along_axis(const jcal_center_config_t *cfg, jcal_center_place_
     place->r2 = jcal_vec3_sub(place->r2, jcal_vec3_scale(cfg->hinge_axis2, shift));
 }
 
-static void tell_verdict(const jcal_center_t *self, jcal_center_result_t *out)
+static void tell_point(const jcal_center_config_t *cfg, const jcal_center_point_t *point, jcal_center_result_t *out)
 {
-    const jcal_center_verdict_t *const verdict = &self->work.verdict;
+    jcal_center_place_t place = point->place;
+    shift_along_axis(cfg, &place);
+    out->joint_to_sensor1_m = place.r1;
+    out->joint_to_sensor2_m = place.r2;
+    out->acc_bias1_m_s2 = point->b1;
+    out->acc_bias2_m_s2 = point->b2;
+    out->heading_offset_rad = jcal_atan2(point->heading.im, point->heading.re);
+}
+
+void jcal_center_report(const jcal_center_config_t *cfg, const jcal_center_work_t *work,
+                        const jcal_center_input_t *input, bool has_point, jcal_center_result_t *out)
+{
+    const jcal_center_verdict_t *const verdict = &work->verdict;
+    *out = (jcal_center_result_t){0};
     out->status = (jcal_calibration_t)verdict->status;
     out->weak = (jcal_weak_t)verdict->weak;
     out->hint = (jcal_hint_t)verdict->hint;
@@ -38,13 +51,22 @@ static void tell_verdict(const jcal_center_t *self, jcal_center_result_t *out)
     out->weakest_direction1 = verdict->direction1;
     out->weakest_direction2 = verdict->direction2;
     out->misfit = verdict->misfit;
-    out->progress1 = progress(verdict->bound1_m, self->cfg.max_bound_m);
-    out->progress2 = progress(verdict->bound2_m, self->cfg.max_bound_m);
-    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
+    out->progress1 = progress(verdict->bound1_m, cfg->max_bound_m);
+    out->progress2 = progress(verdict->bound2_m, cfg->max_bound_m);
+    const jcal_reason_t complaint = jcal_gate_complaint(&input->gate);
     if (complaint != JCAL_REASON_NONE) { /* a sensor that fails sends nothing that a judgement would follow */
         out->status = JCAL_COLLECTING;
         out->reason = complaint;
         out->hint = JCAL_HINT_CHECK_SENSORS;
+    }
+    out->has_center = has_point;
+    if (has_point) {
+        tell_point(cfg, &work->sums.point, out);
+    }
+    out->samples = input->gate.samples;
+    for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
+        out->rejected_by[i] = input->gate.rejected_by[i];
+        out->rejected += input->gate.rejected_by[i];
     }
 }
 
@@ -53,25 +75,8 @@ jcal_status_t jcal_center_get(const jcal_center_t *self, jcal_center_result_t *o
     if ((self == NULL) || (out == NULL)) {
         return JCAL_ERR_ARG;
     }
-    jcal_center_result_t result = {0};
-    result.engine = JCAL_ENGINE_STREAM;
-    tell_verdict(self, &result);
-    result.has_center = self->has_point;
-    if (self->has_point) {
-        jcal_center_place_t place = self->work.sums.point.place;
-        shift_along_axis(&self->cfg, &place);
-        result.joint_to_sensor1_m = place.r1;
-        result.joint_to_sensor2_m = place.r2;
-        result.acc_bias1_m_s2 = self->work.sums.point.b1;
-        result.acc_bias2_m_s2 = self->work.sums.point.b2;
-        result.heading_offset_rad = jcal_atan2(self->work.sums.point.heading.im, self->work.sums.point.heading.re);
-    }
-    result.t_us = self->t_us;
-    result.samples = self->gate.samples;
-    for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
-        result.rejected_by[i] = self->gate.rejected_by[i];
-        result.rejected += self->gate.rejected_by[i];
-    }
-    *out = result;
+    jcal_center_report(&self->cfg, &self->work, &self->input, self->has_point, out);
+    out->engine = JCAL_ENGINE_STREAM;
+    out->t_us = self->t_us;
     return JCAL_OK;
 }

@@ -13,20 +13,6 @@
 #include "jointcal/quat.h"
 #include "jointcal/vec3.h"
 
-/// One body at one time.
-typedef struct {
-    jcal_vec3_t a;     ///< Specific force of the sensor, m/s^2.
-    jcal_vec3_t k[3];  ///< Columns of K, 1/s^2.
-    float rate2;       ///< |w|^2, (rad/s)^2.
-} jcal_body_t;
-
-/// Both bodies at one time, each in its sensor's frame, or in its earth frame if its orientation is known.
-typedef struct {
-    jcal_body_t body1, body2;
-    uint64_t t_us;
-    float dt_s;  ///< The time it stands for.
-} jcal_kinematic_t;
-
 /// Forgets all samples.
 void jcal_kinematics_begin(jcal_kinematics_t *self);
 
