@@ -462,7 +462,7 @@ static void every_field_out_of_its_range_is_named(void)
         {"max_bound_m", &c.max_bound_m, 0.001f, 0.1f},       {"mismatch_m", &c.mismatch_m, 0.0f, 0.05f},
         {"acc_noise_m_s2", &c.acc_noise_m_s2, 1e-3f, 10.0f}, {"turn_error", &c.turn_error, 0.0f, 0.5f},
         {"acc_bias_m_s2", &c.acc_bias_m_s2, 0.0f, 2.0f},     {"min_rate_rad_s", &c.min_rate_rad_s, 0.0f, 20.0f},
-        {"gate.frozen_s", &c.gate.frozen_s, 0.02f, 10.0f},
+        {"memory_s", &c.memory_s, 10.0f, 3600.0f},           {"gate.frozen_s", &c.gate.frozen_s, 0.02f, 10.0f},
     };
     TEST_ASSERT_NULL(jcal_center_config_check(&config));
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; ++i) {

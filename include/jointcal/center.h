@@ -76,6 +76,9 @@ typedef struct {
     float acc_bias_m_s2;
     /// Samples with both rates below this are left out, rad/s; 1.2 in [OLS17]. Range [0, 20], default 0: rest tells of biases.
     float min_rate_rad_s;
+    /// Memory of the stream engine for what wanders, s: the accelerometers' biases, and with JCAL_CENTER_LS the heading, for which it is
+    /// never more than 60 s. Data of twice this time count half. Range [10, 3600], default 300.
+    float memory_s;
     /// Hinges: the joint axis in both sensor frames, unit vectors; both zero (default) for other joints. Any point on the axis is a
     /// centre; results are those next to both sensors, (11) and (12) of [SAL15], and bounds are those across the axis.
     jcal_vec3_t hinge_axis1;

@@ -29,9 +29,7 @@
 /// turn. If more data than that of SETTLED_S want it further away, the sums begin anew where they want it.
 #define LINEAR_M_S2 0.5f
 #define SETTLED_S 4.0f
-/// Sums are halved beyond this, s: accelerometers' biases wander.
-#define MEMORY_S 300.0f
-/// The same with orientations: their heading offset drifts.
+/// Longest memory with orientations, s: their heading offset drifts.
 #define HEADING_MEMORY_S 60.0f
 /// Time from which the first heading offset is taken, s.
 #define HEADING_S 2.0f
@@ -60,6 +58,7 @@ jcal_center_config_t jcal_center_config_default(void)
         .turn_error = 0.01f,
         .acc_bias_m_s2 = 0.3f,
         .min_rate_rad_s = 0.0f,
+        .memory_s = 300.0f,
     };
     return config;
 }
@@ -85,6 +84,7 @@ const char *jcal_center_config_check(const jcal_center_config_t *config)
         {"turn_error", config->turn_error, 0.0f, 0.5f},
         {"acc_bias_m_s2", config->acc_bias_m_s2, 0.0f, 2.0f},
         {"min_rate_rad_s", config->min_rate_rad_s, 0.0f, 20.0f},
+        {"memory_s", config->memory_s, 10.0f, 3600.0f},
     };
     for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
         if (!jcal_within(fields[i].value, fields[i].low, fields[i].high)) {
@@ -172,6 +172,11 @@ static void add_moments(jcal_center_t *self, const jcal_kinematic_t *sample)
     jcal_sym_rank1(self->moments, JCAL_CENTER_FEATURES, f, sample->dt_s / (JCAL_CENTER_READING_S * noise * noise));
 }
 
+static float memory_s(const jcal_center_config_t *cfg)
+{
+    return (cfg->method == JCAL_CENTER_LS) ? jcal_min(cfg->memory_s, HEADING_MEMORY_S) : cfg->memory_s;
+}
+
 /// Takes a sample into the sums at the estimate.
 static void add_residual(jcal_center_t *self, const jcal_kinematic_t *sample, float motion_s)
 {
@@ -180,7 +185,7 @@ static void add_residual(jcal_center_t *self, const jcal_kinematic_t *sample, fl
         return;
     }
     jcal_watch_add(&self->watch, 0u, square / WATCH_SHARE, motion_s);
-    if (self->work.sums.time_s > ((self->cfg.method == JCAL_CENTER_LS) ? HEADING_MEMORY_S : MEMORY_S)) {
+    if (self->work.sums.time_s > memory_s(&self->cfg)) {
         jcal_center_sums_halve(&self->work.sums);
     }
 }
@@ -195,7 +200,7 @@ static void take_in(jcal_center_t *self, const jcal_kinematic_t *sample)
         add_moments(self, sample);
         self->moving_s += motion_s;
     }
-    if (self->moving_s > MEMORY_S) {
+    if (self->moving_s > self->cfg.memory_s) {
         jcal_sym_scale(self->moments, JCAL_CENTER_FEATURES, 0.5f);
         self->moving_s *= 0.5f;
     }

@@ -17,7 +17,10 @@ int64_t option_duration(struct argp_state *state, const char *option, const char
 /// A number above zero.
 float option_positive(struct argp_state *state, const char *option, const char *text);
 
-/// Value of --n-max: a whole number above zero. `most` is for the message; the engine's config says what it takes.
-uint16_t option_sample_count(struct argp_state *state, const char *text, int most);
+/// A number that is zero or more.
+float option_not_negative(struct argp_state *state, const char *option, const char *text);
+
+/// Value of --n-max: a whole number above zero. `least` and `most` are for the message; the engine's config says what it takes.
+uint16_t option_sample_count(struct argp_state *state, const char *text, int least, int most);
 
 #endif

@@ -235,6 +235,12 @@ jcal_reason_t orientations_complaint(const orientations_t *self)
     return jcal_gate_complaint(&self->gate);
 }
 
+const char *orientations_words(const orientations_t *self)
+{
+    return (self->source == ORIENTATIONS_FROM_COLUMNS) ? "columns q1_w ... q2_z of the recording"
+                                                       : "computed from rates and specific forces by VQF";
+}
+
 void orientations_close(orientations_t *self)
 {
     free(self->filters);

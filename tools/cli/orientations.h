@@ -68,6 +68,9 @@ recording_event_t orientations_next(orientations_t *self, oriented_row_t *row);
 /// What is wrong with the readings as a whole, as the library's gate has it; JCAL_REASON_NONE for orientations from columns.
 jcal_reason_t orientations_complaint(const orientations_t *self);
 
+/// Where the orientations come from, in words.
+const char *orientations_words(const orientations_t *self);
+
 /// Releases memory.
 void orientations_close(orientations_t *self);
 

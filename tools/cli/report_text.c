@@ -84,7 +84,7 @@ static const char *hint_words(const report_t *report)
     case JCAL_HINT_CHECK_SENSORS:
         return "check units, range, mounting and pairing of the sensors; more motion will not help";
     case JCAL_HINT_MORE_DIRECTIONS:
-        return "turn both segments about other axes too: so far a direction is left open";
+        return "turn both segments about other axes too; the axis of a hinge always stays open, see --calibration";
     case JCAL_HINT_NONE:
     default:
         return NULL;

@@ -66,7 +66,7 @@ static void print_heading(FILE *file, const jcal_two_dof_result_t *result)
 }
 
 void two_dof_print_summary(FILE *file, const report_t *report, const jcal_two_dof_result_t *result,
-                           orientations_source_t source)
+                           const char *orientations)
 {
     report_print_head(file, report);
     report_print_axes(file, report);
@@ -76,9 +76,7 @@ void two_dof_print_summary(FILE *file, const report_t *report, const jcal_two_do
         report_print_words(file, "heading offset", "unknown");
         report_print_words(file, "carrying angle", "unknown");
     }
-    report_print_words(file, "orientations",
-                       (source == ORIENTATIONS_FROM_COLUMNS) ? "columns q1_w ... q2_z of the recording"
-                                                             : "computed from rates and specific forces by VQF");
+    report_print_words(file, "orientations", orientations);
     report_print_state(file, report);
     report_print_exit(file, report);
 }
