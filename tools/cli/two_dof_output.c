@@ -51,6 +51,9 @@ void two_dof_write_json(FILE *file, const char *event, const report_t *report, c
     json_number(&json, "heading_offset_deg", known ? heading_deg(result->heading_offset_rad) : NAN);
     json_number(&json, "uncertainty_heading_deg", heading_bounded(result) ? bound_deg : NAN);
     json_number(&json, "carrying_angle_deg", known ? DEG_PER_RAD * result->carrying_angle_rad : NAN);
+    if (result->engine == JCAL_ENGINE_WINDOW) {
+        json_word(&json, "paper_accepted", NULL); /* Laidig et al. have no such test */
+    }
     report_json_end(&json, &report->finding);
 }
 

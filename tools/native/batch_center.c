@@ -60,8 +60,7 @@ static jcal_center_config_t config_of(const jcal_batch_center_options_t *options
 static void push(engine_t *engine, const jcal_batch_center_input_t *in, size_t k)
 {
     const float *const v = in->values + k * 12;
-    const jcal_pair_t pair = {
-        in->t_us[k], {vector_at(v), vector_at(v + 3)}, {vector_at(v + 6), vector_at(v + 9)}};
+    const jcal_pair_t pair = {in->t_us[k], {vector_at(v), vector_at(v + 3)}, {vector_at(v + 6), vector_at(v + 9)}};
     if (in->orientations == NULL) {
         (void)(engine->is_window ? jcal_center_window_push(&engine->window, &pair)
                                  : jcal_center_push(&engine->stream, &pair));
