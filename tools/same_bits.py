@@ -14,11 +14,13 @@ sys.path.insert(0, str(Path(__file__).resolve().parent / "python"))
 from jointcal_tools import target  # noqa: E402
 
 HINGES = ["rig_1D_01", "rig_1D_02", "rig_1D_04"], "hinge_demo"
+CENTER = ["rig_3D_01", "rig_3D_02", "rig_2D_05"], "two_dof_demo"
 TWO_DOF = ["rig_2D_01", "rig_2D_02", "rig_2D_05"], "two_dof_demo"
 # What the image is called, its definitions, recordings, and how they become samples.
 ENGINES = {"hinge, stream": ("hinge_stream", (), HINGES, target.samples_file),
            "hinge, window, N_max 125": ("hinge_window", ("REPLAY_WINDOW",), HINGES, target.samples_file),
-           "two-dof, stream": ("two_dof_stream", ("REPLAY_TWO_DOF",), TWO_DOF, target.orientations_file)}
+           "two-dof, stream": ("two_dof_stream", ("REPLAY_TWO_DOF",), TWO_DOF, target.orientations_file),
+           "centre, stream": ("center_stream", ("REPLAY_CENTER",), CENTER, target.samples_file)}
 NOT_ON = {"hinge, window, N_max 125": ("m0",)}  # its buffers and those of the program are more than 16 KiB
 PAGE = target.ROOT / "docs/measurements/same_bits.md"
 

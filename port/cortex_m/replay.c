@@ -5,10 +5,11 @@
  * a file of the host, by semihosting. Equal hashes mean equal bits of every field of every result. The functions
  * replay_mark_* tell tools/budget.py's instruction counter where a call begins and ends.
  *
- * Compile definitions: REPLAY_TWO_DOF (stream engine of the 2-DoF joint; otherwise that of the hinge), REPLAY_WINDOW (window
- * engine, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
+ * Compile definitions: REPLAY_TWO_DOF, REPLAY_CENTER (stream engine of the 2-DoF joint, of the joint centre; otherwise that of the
+ * hinge), REPLAY_WINDOW (window engine of the hinge, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
  * the stack before every call and print how deep the deepest one went). */
+#include "jointcal/center.h"
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_window.h"
 #include "jointcal/two_dof.h"
@@ -37,6 +38,21 @@ static jcal_status_t engine_init(void)
 {
     const jcal_two_dof_config_t config = jcal_two_dof_config_default();
     return jcal_two_dof_init(&replayed, &config);
+}
+#elif defined(REPLAY_CENTER)
+typedef jcal_pair_t sample_t;
+typedef jcal_center_result_t result_t;
+static jcal_center_t replayed;
+#define engine_push jcal_center_push
+#define engine_step jcal_center_step
+#define engine_update jcal_center_update
+#define engine_get jcal_center_get
+#define has_axes has_center
+
+static jcal_status_t engine_init(void)
+{
+    const jcal_center_config_t config = jcal_center_config_default();
+    return jcal_center_init(&replayed, &config);
 }
 #else
 typedef jcal_pair_t sample_t;
@@ -195,6 +211,22 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
                             r->progress_axis1,
                             r->progress_axis2,
                             r->progress_heading};
+#elif defined(REPLAY_CENTER)
+static uint64_t hash_floats(uint64_t hash, const result_t *r)
+{
+    const jcal_vec3_t vectors[] = {r->joint_to_sensor1_m, r->joint_to_sensor2_m, r->weakest_direction1,
+                                   r->weakest_direction2, r->acc_bias1_m_s2,     r->acc_bias2_m_s2};
+    for (size_t k = 0; k < sizeof(vectors) / sizeof(vectors[0]); ++k) {
+        hash = hash_f32(hash_f32(hash_f32(hash, vectors[k].x), vectors[k].y), vectors[k].z);
+    }
+    const float floats[] = {r->uncertainty1_m,
+                            r->uncertainty2_m,
+                            r->uncertainty_weakest1_m,
+                            r->uncertainty_weakest2_m,
+                            r->heading_offset_rad,
+                            r->misfit,
+                            r->progress1,
+                            r->progress2};
 #else
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {
