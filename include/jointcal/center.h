@@ -137,6 +137,12 @@ typedef struct {
     bool open;                           ///< More than one direction is beyond its limit.
 } jcal_center_verdict_t;
 
+/// Private: bounds of one sensor's vector, m.
+typedef struct {
+    float all, weakest, second;
+    jcal_vec3_t direction;
+} jcal_center_bounds_t;
+
 /// Private: work on the covariance of one state of the sums, a slice at a time.
 typedef struct {
     float factor[78];        ///< Of the sums' matrix, prior included, scaled.
@@ -144,14 +150,20 @@ typedef struct {
     float columns[6][12];    ///< Columns of its inverse that belong to r1 and r2.
     float covariance[2][6];  ///< Of r1 and of r2, packed, from the scatter ...
     float least[2][6];       ///< ... and what it is at least, from the matrix.
-    float fake[6];           ///< Direction of whose information the largest share may be none, scaled.
+    float fake[6];           ///< Direction of whose information the largest share may be none, scaled ...
+    float fake_share;        ///< ... that share ...
+    float hidden_m;          ///< ... and how far what is unexplained may have shifted the estimate.
+    jcal_center_bounds_t bounds[2];
 } jcal_center_inverse_t;
 
 /// Private: what both engines work with.
 typedef struct {
     jcal_center_sums_t sums;
     jcal_center_verdict_t verdict;
-    jcal_center_inverse_t inverse;
+    union {
+        float moments[190];             ///< Packed 19 x 19: products of the features, before the sums begin ...
+        jcal_center_inverse_t inverse;  ///< ... and after.
+    } as;
 } jcal_center_work_t;
 
 /// Private: from readings to samples.
@@ -166,7 +178,6 @@ typedef struct {
 typedef struct {
     jcal_center_config_t cfg;
     jcal_center_input_t input;
-    float moments[190];         ///< Packed 19 x 19: products of the features.
     jcal_center_place_t start;  ///< Minimum of the moments.
     jcal_plane_t heading;       ///< Sum that points along the heading offset at `start` ...
     float heading_s;            ///< ... and its time.
@@ -177,7 +188,6 @@ typedef struct {
     uint8_t turn;    ///< Next item of the cycle.
     bool has_start;  ///< `start` is a minimum.
     bool has_point;  ///< The sums have begun.
-    bool odd;        ///< Every other bin.
 } jcal_center_t;
 
 /// The defaults described at each field.

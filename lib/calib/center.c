@@ -37,11 +37,13 @@
 #define WATCH_SHARE 5.0f
 #define WATCH_MOST 25.0f
 
-/// Turns of the cycle: the moments' minimum, the slices of the judgement, the estimate's step after the first of them.
-#define TURN_START 0u
-#define TURN_FACTOR 1u
-#define TURN_STEP 2u
-#define TURN_COLUMNS 3u
+/// Turns of the cycle before there is an estimate: gradient, rows of the matrix, step, and whether that arrived.
+#define TURN_START_STEP (JCAL_CENTER_PLACE_UNKNOWNS + 1u)
+#define TURNS_START (TURN_START_STEP + 2u)
+/// Turns of the cycle after that: the slices of the judgement, the estimate's step after the first of them.
+#define TURN_FACTOR 0u
+#define TURN_STEP 1u
+#define TURN_COLUMNS 2u
 #define TURNS (TURN_COLUMNS + JCAL_CENTER_JUDGE_SLICES - 1u)
 
 typedef char jcal_center_fits_its_budget[(sizeof(jcal_center_t) <= 5120u) ? 1 : -1];
@@ -112,14 +114,14 @@ const char *jcal_center_config_check(const jcal_center_config_t *config)
 /// Forgets what was learnt of the joint.
 static void begin_anew(jcal_center_t *self, jcal_calibration_t status)
 {
-    (void)memset(self->moments, 0, sizeof self->moments);
+    (void)memset(&self->work.as, 0, sizeof self->work.as);
     (void)memset(&self->start, 0, sizeof self->start);
     (void)memset(&self->work.sums, 0, sizeof self->work.sums);
     (void)memset(&self->watch, 0, sizeof self->watch);
     (void)memset(&self->heading, 0, sizeof self->heading);
     self->heading_s = 0.0f;
     self->moving_s = 0.0f;
-    self->turn = TURN_START;
+    self->turn = 0u;
     self->has_start = false;
     self->has_point = false;
     jcal_center_verdict_begin(&self->work.verdict, status);
@@ -169,7 +171,8 @@ static void add_moments(jcal_center_t *self, const jcal_kinematic_t *sample)
     jcal_center_features(sample, f);
     const float force = jcal_vec3_norm(sample->body1.a) + jcal_vec3_norm(sample->body2.a);
     const float noise = self->cfg.acc_noise_m_s2 * jcal_max(force, 1.0f);
-    jcal_sym_rank1(self->moments, JCAL_CENTER_FEATURES, f, sample->dt_s / (JCAL_CENTER_READING_S * noise * noise));
+    jcal_sym_rank1(self->work.as.moments, JCAL_CENTER_FEATURES, f,
+                   sample->dt_s / (JCAL_CENTER_READING_S * noise * noise));
 }
 
 static float memory_s(const jcal_center_config_t *cfg)
@@ -196,12 +199,12 @@ static void take_in(jcal_center_t *self, const jcal_kinematic_t *sample)
     const float rate2 = sample->body2.rate2;
     const float motion_s = sample->dt_s * jcal_watch_motion(rate1 + rate2);
     self->t_us = sample->t_us;
-    if (self->odd || !self->has_point) {
+    if (!self->has_point && !self->has_start) {
         add_moments(self, sample);
         self->moving_s += motion_s;
     }
     if (self->moving_s > self->cfg.memory_s) {
-        jcal_sym_scale(self->moments, JCAL_CENTER_FEATURES, 0.5f);
+        jcal_sym_scale(self->work.as.moments, JCAL_CENTER_FEATURES, 0.5f);
         self->moving_s *= 0.5f;
     }
     if (self->has_point) {
@@ -236,23 +239,30 @@ static bool is_known(const jcal_center_t *self, float *matrix, float cost)
     return (trace * excess) < (START_M * START_M);
 }
 
-/// A damped step to the moments' minimum.
+/// A slice of a damped step to the moments' minimum: gradient, rows of the matrix, step. Until the sums begin, they hold these.
 static void step_start(jcal_center_t *self)
 {
-    float gradient[JCAL_CENTER_PLACE_UNKNOWNS];
-    float matrix[JCAL_SYM_SIZE(JCAL_CENTER_PLACE_UNKNOWNS)];
-    float d[JCAL_CENTER_PLACE_UNKNOWNS];
-    const float cost = jcal_center_form(self->moments, &self->start, gradient, matrix);
-    const jcal_gn_model_t model = {JCAL_CENTER_PLACE_UNKNOWNS, gradient, matrix};
-    jcal_gn_t gn = jcal_gn_begin();
-    if (jcal_gn_step(&gn, &model, d, NULL) != JCAL_OK) {
-        return;
+    jcal_center_sums_t *const sums = &self->work.sums;
+    if (self->turn == 0u) {
+        sums->cost = jcal_center_form(self->work.as.moments, &self->start, sums->gradient);
+    } else if (self->turn < TURN_START_STEP) {
+        jcal_center_form_row(self->work.as.moments, &self->start, self->turn - 1u, sums->matrix);
+    } else if (self->turn == TURN_START_STEP) {
+        sums->effect = FLT_MAX; /* length of the step */
+        float d[JCAL_CENTER_PLACE_UNKNOWNS];
+        const jcal_gn_model_t model = {JCAL_CENTER_PLACE_UNKNOWNS, sums->gradient, sums->matrix};
+        jcal_gn_t gn = jcal_gn_begin();
+        if (jcal_gn_step(&gn, &model, d, NULL) == JCAL_OK) {
+            const float length = jcal_gn_length(d, JCAL_CENTER_PLACE_UNKNOWNS);
+            const float share = (length > STEP_MAX_M) ? (STEP_MAX_M / length) : 1.0f;
+            self->start.r1 = jcal_vec3_add(self->start.r1, jcal_vec3_scale(jcal_vec3(d[0], d[1], d[2]), share));
+            self->start.r2 = jcal_vec3_add(self->start.r2, jcal_vec3_scale(jcal_vec3(d[3], d[4], d[5]), share));
+            sums->effect = length;
+        }
+    } else {
+        self->has_start = (sums->effect < ARRIVED_M) && is_known(self, sums->matrix, sums->cost);
     }
-    const float length = jcal_gn_length(d, JCAL_CENTER_PLACE_UNKNOWNS);
-    const float share = (length > STEP_MAX_M) ? (STEP_MAX_M / length) : 1.0f;
-    self->start.r1 = jcal_vec3_add(self->start.r1, jcal_vec3_scale(jcal_vec3(d[0], d[1], d[2]), share));
-    self->start.r2 = jcal_vec3_add(self->start.r2, jcal_vec3_scale(jcal_vec3(d[3], d[4], d[5]), share));
-    self->has_start = (length < ARRIVED_M) && is_known(self, matrix, cost);
+    self->turn = (uint8_t)((self->turn + 1u) % TURNS_START);
 }
 
 static float apart(const jcal_center_place_t *a, const jcal_center_place_t *b)
@@ -294,26 +304,19 @@ static void work_at_start(jcal_center_t *self)
 {
     if (!self->has_start && (self->moving_s > MOVING_MIN_S)) {
         step_start(self);
-    }
-    if (self->has_start && ((self->cfg.method != JCAL_CENTER_LS) || (self->heading_s > HEADING_S))) {
+    } else if (self->has_start && ((self->cfg.method != JCAL_CENTER_LS) || (self->heading_s > HEADING_S))) {
         begin_sums(self, &self->start, self->heading);
+        (void)memset(&self->work.as.inverse, 0, sizeof self->work.as.inverse);
         self->has_point = true;
+        self->turn = TURN_FACTOR;
     }
 }
 
-/// One slice of the work.
-static void work(jcal_center_t *self)
+/// One slice of the work at the estimate.
+static void work_at_point(jcal_center_t *self)
 {
     const unsigned turn = self->turn;
     self->turn = (uint8_t)((turn + 1u) % TURNS);
-    if (!self->has_point) {
-        self->turn = TURN_START;
-        work_at_start(self);
-        return;
-    }
-    if (turn == TURN_START) {
-        return;
-    }
     if (turn == TURN_FACTOR) {
         if (!(self->work.sums.blocks >= 1.0f) || !jcal_center_judge(&self->cfg, &self->work, 0u)) {
             self->turn = TURN_FACTOR;
@@ -341,12 +344,13 @@ jcal_status_t jcal_center_step(jcal_center_t *self)
     if (event == JCAL_CENTER_WAITS) {
         return JCAL_OK;
     }
-    self->odd = !self->odd;
     if (event == JCAL_CENTER_SAMPLE) {
         take_in(self, &sample);
     }
-    if (!self->odd) {
-        work(self);
+    if (self->has_point) {
+        work_at_point(self);
+    } else {
+        work_at_start(self);
     }
     return JCAL_OK;
 }

@@ -57,7 +57,7 @@ static float excess_of(const jcal_center_sums_t *sums)
 
 static bool factor(const jcal_center_config_t *cfg, jcal_center_work_t *self)
 {
-    jcal_center_inverse_t *const inverse = &self->inverse;
+    jcal_center_inverse_t *const inverse = &self->as.inverse;
     float prior[N];
     jcal_center_prior(cfg, prior);
     (void)memcpy(inverse->factor, self->sums.matrix, sizeof inverse->factor);
@@ -75,32 +75,32 @@ static void column(jcal_center_inverse_t *inverse, size_t which)
     jcal_chol_solve_scaled(inverse->factor, N, inverse->scale, x);
 }
 
-/// Covariances of the vector of one sensor (0 or 1).
-static void covariance(const jcal_center_config_t *cfg, jcal_center_work_t *self, size_t sensor)
+/// One row of the covariances of r1 (rows 0 to 2) or r2 (3 to 5).
+static void covariance(const jcal_center_config_t *cfg, jcal_center_work_t *self, size_t row)
 {
-    jcal_center_inverse_t *const inverse = &self->inverse;
+    jcal_center_inverse_t *const inverse = &self->as.inverse;
     const jcal_center_sums_t *const sums = &self->sums;
     const float excess = excess_of(sums);
     const float counted = jcal_max(sums->blocks - BLOCKS_LOST, 1.0f) * JCAL_CENTER_BLOCK_S;
     const float few = jcal_max(sums->time_s / counted, 1.0f);
+    const size_t sensor = row / 3u;
+    const size_t i = row % 3u;
+    const float *const x = inverse->columns[row];
     float prior[N];
+    float spread[N]; /* S x */
     jcal_center_prior(cfg, prior);
-    for (size_t i = 0u; i < 3u; ++i) {
-        const float *const x = inverse->columns[(3u * sensor) + i];
-        float spread[N]; /* (S + P) x */
-        jcal_sym_times(sums->scatter, N, x, spread);
-        for (size_t j = 0u; j <= i; ++j) {
-            const float *const y = inverse->columns[(3u * sensor) + j];
-            float from_scatter = 0.0f;
-            float from_prior = 0.0f;
-            for (size_t k = 0u; k < N; ++k) {
-                from_scatter += spread[k] * y[k];
-                from_prior += prior[k] * x[k] * y[k];
-            }
-            const size_t at = jcal_sym_at(i, j);
-            inverse->covariance[sensor][at] = (few * from_scatter) + from_prior;
-            inverse->least[sensor][at] = (excess * (x[(3u * sensor) + j] - from_prior)) + from_prior;
+    jcal_sym_times(sums->scatter, N, x, spread);
+    for (size_t j = 0u; j <= i; ++j) {
+        const float *const y = inverse->columns[(3u * sensor) + j];
+        float from_scatter = 0.0f;
+        float from_prior = 0.0f;
+        for (size_t k = 0u; k < N; ++k) {
+            from_scatter += spread[k] * y[k];
+            from_prior += prior[k] * x[k] * y[k];
         }
+        const size_t at = jcal_sym_at(i, j);
+        inverse->covariance[sensor][at] = (few * from_scatter) + from_prior;
+        inverse->least[sensor][at] = (excess * (x[(3u * sensor) + j] - from_prior)) + from_prior;
     }
 }
 
@@ -123,15 +123,10 @@ static float radius(const float *c)
     return sqrtf(jcal_max(trace + (2.0f * sqrtf(2.0f * squares)), 0.0f));
 }
 
-/// Bounds of one sensor's vector.
-typedef struct {
-    float all, weakest, second;
-    jcal_vec3_t direction;
-} bounds_t;
-
-static bounds_t unknown_bounds(void)
+static jcal_center_bounds_t unknown_bounds(void)
 {
-    const bounds_t b = {JCAL_BOUND_UNKNOWN_M, JCAL_BOUND_UNKNOWN_M, JCAL_BOUND_UNKNOWN_M, {0.0f, 0.0f, 0.0f}};
+    const jcal_center_bounds_t b = {
+        JCAL_BOUND_UNKNOWN_M, JCAL_BOUND_UNKNOWN_M, JCAL_BOUND_UNKNOWN_M, {0.0f, 0.0f, 0.0f}};
     return b;
 }
 
@@ -140,21 +135,26 @@ static float bound(float radius_m, float hidden_m, float mismatch_m)
     return jcal_min(mismatch_m + sqrtf((radius_m * radius_m) + (hidden_m * hidden_m)), JCAL_BOUND_UNKNOWN_M);
 }
 
-/// Finds the direction of (r1, r2) of whose information the largest share may come from wrong rows, W = D V D with V the covariance by
-/// the matrix alone and D D the information that wrong rows make. Returns the share; `y` (6): V holds share y y'.
-static float find_fake(jcal_center_work_t *self, float *y)
+/// Root of the information that wrong rows make of the vector of one sensor (0 or 1).
+static float wrong_row(const jcal_center_sums_t *sums, size_t sensor)
 {
-    jcal_center_inverse_t *const inverse = &self->inverse;
+    float power = 0.0f;
+    for (size_t k = 3u * sensor; k < ((3u * sensor) + 3u); ++k) {
+        power += sums->matrix[jcal_sym_at(k, k)];
+    }
+    return ROW_ERROR * sqrtf(jcal_max(power, 1.0f));
+}
+
+/// Finds the direction of (r1, r2) of whose information the largest share may come from wrong rows, W = D V D with V the covariance by
+/// the matrix alone and D D the information that wrong rows make. V holds share y y', y = D^-1 z.
+static void find_fake(jcal_center_work_t *self)
+{
+    jcal_center_inverse_t *const inverse = &self->as.inverse;
     float d[2];
     for (size_t i = 0u; i < 2u; ++i) {
-        float power = 0.0f;
-        for (size_t k = 3u * i; k < ((3u * i) + 3u); ++k) {
-            power += self->sums.matrix[jcal_sym_at(k, k)];
-        }
-        d[i] = ROW_ERROR * sqrtf(jcal_max(power, 1.0f));
+        d[i] = wrong_row(&self->sums, i);
     }
     float *const z = inverse->fake;
-    float share = 0.0f;
     for (unsigned step = 0u; step < POWER_STEPS; ++step) {
         float on[6];
         float square = 0.0f;
@@ -165,32 +165,21 @@ static float find_fake(jcal_center_work_t *self, float *y)
             }
             square += on[i] * on[i];
         }
-        share = sqrtf(square);
+        const float share = sqrtf(square);
         for (size_t i = 0u; i < 6u; ++i) {
             z[i] = (share > FLT_MIN) ? (on[i] / share) : 1.0f;
         }
+        inverse->fake_share = share;
     }
-    for (size_t i = 0u; i < 6u; ++i) {
-        y[i] = z[i] / d[i / 3u];
-    }
-    return share;
 }
 
-/// How a judgement sees errors of the model.
-typedef struct {
-    float hidden_m;  ///< How far what is unexplained may have shifted the estimate.
-    float share;     ///< Of one direction's information that wrong rows may have made ...
-    float y[6];      ///< ... and the direction.
-} doubt_t;
-
-/// Takes information that wrong rows may have made out of a covariance c (3 x 3, packed) of one sensor's vector.
-static void deflate(const jcal_center_work_t *self, size_t sensor, const doubt_t *doubt, float *c)
+/// Takes information that wrong rows may have made out of a covariance c (3 x 3, packed) of one sensor's vector; `own` is y there.
+static void deflate(const jcal_center_work_t *self, size_t sensor, const float *own, float *c)
 {
-    const float share = doubt->share;
-    const float *const own = &doubt->y[3u * sensor];
+    const float share = self->as.inverse.fake_share;
     float by_matrix = 0.0f;
     for (size_t i = 0u; i < 3u; ++i) {
-        by_matrix += self->inverse.columns[(3u * sensor) + i][(3u * sensor) + i];
+        by_matrix += self->as.inverse.columns[(3u * sensor) + i][(3u * sensor) + i];
     }
     const float left = 1.0f - share;
     const float more = share * ((1.0f / (left * left)) - 1.0f) * ((c[0] + c[2] + c[5]) / jcal_max(by_matrix, FLT_MIN));
@@ -207,38 +196,40 @@ static bool is_along_axis(const float *y, jcal_vec3_t axis)
     return (along * along) > (ALONG_COSINE2 * jcal_vec3_dot(own, own));
 }
 
-static bounds_t bounds_of(const jcal_center_config_t *cfg, const jcal_center_work_t *self, size_t sensor,
-                          const doubt_t *doubt)
+static jcal_center_bounds_t bounds_of(const jcal_center_config_t *cfg, const jcal_center_work_t *self, size_t sensor)
 {
-    const jcal_center_inverse_t *const inverse = &self->inverse;
+    const jcal_center_inverse_t *const inverse = &self->as.inverse;
     const jcal_vec3_t axis = (sensor == 0u) ? cfg->hinge_axis1 : cfg->hinge_axis2;
     const float mismatch_m = cfg->mismatch_m;
+    const float by_row = 1.0f / wrong_row(&self->sums, sensor);
+    const float *const z = &inverse->fake[3u * sensor];
+    const float own[3] = {by_row * z[0], by_row * z[1], by_row * z[2]};
     const bool by_scatter = radius(inverse->covariance[sensor]) > radius(inverse->least[sensor]);
     float known[6];
     float larger[6];
     (void)memcpy(known, by_scatter ? inverse->covariance[sensor] : inverse->least[sensor], sizeof known);
     (void)memcpy(larger, known, sizeof larger);
-    deflate(self, sensor, doubt, larger);
+    deflate(self, sensor, own, larger);
     float values[3];
     float vectors[9];
-    bounds_t b = unknown_bounds();
+    jcal_center_bounds_t b = unknown_bounds();
     if (jcal_eig_symmetric(larger, 3u, values, vectors) != JCAL_OK) {
         return b;
     }
     b.direction = jcal_vec3(vectors[0], vectors[1], vectors[2]);
-    b.weakest = bound(NORMAL_95 * sqrtf(jcal_max(values[0], 0.0f)), doubt->hidden_m, mismatch_m);
-    b.second = bound(NORMAL_95 * sqrtf(jcal_max(values[1], 0.0f)), doubt->hidden_m, mismatch_m);
-    if (!is_along_axis(&doubt->y[3u * sensor], axis)) {
+    b.weakest = bound(NORMAL_95 * sqrtf(jcal_max(values[0], 0.0f)), inverse->hidden_m, mismatch_m);
+    b.second = bound(NORMAL_95 * sqrtf(jcal_max(values[1], 0.0f)), inverse->hidden_m, mismatch_m);
+    if (!is_along_axis(own, axis)) {
         (void)memcpy(known, larger, sizeof known);
     }
     across(known, axis);
-    b.all = bound(radius(known), doubt->hidden_m, mismatch_m);
+    b.all = bound(radius(known), inverse->hidden_m, mismatch_m);
     return b;
 }
 
 /// What is missing, if anything; the most important first.
-static void name_what_is_missing(const jcal_center_config_t *cfg, jcal_center_work_t *self, const bounds_t *b,
-                                 float hidden_m)
+static void name_what_is_missing(const jcal_center_config_t *cfg, jcal_center_work_t *self,
+                                 const jcal_center_bounds_t *b, float hidden_m)
 {
     jcal_center_verdict_t *const verdict = &self->verdict;
     const jcal_center_sums_t *const sums = &self->sums;
@@ -266,22 +257,26 @@ static void name_what_is_missing(const jcal_center_config_t *cfg, jcal_center_wo
     }
 }
 
-static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
+/// How far what remains unexplained may have shifted the estimate.
+static void find_hidden(jcal_center_work_t *self)
 {
-    jcal_center_verdict_t *const verdict = &self->verdict;
     const jcal_center_sums_t *const sums = &self->sums;
     const jcal_center_place_t *const place = &sums->point.place;
     const float share = jcal_min(sums->cost / jcal_max(sums->effect, FLT_MIN), 1.0f);
     const float lasting = jcal_min(jcal_max(sums->lagged, 0.0f) / jcal_max(sums->raw, FLT_MIN), 1.0f);
-    verdict->misfit = sqrtf(share);
     const float length = sqrtf(jcal_max(jcal_vec3_dot(place->r1, place->r1), jcal_vec3_dot(place->r2, place->r2)));
-    doubt_t doubt;
-    doubt.hidden_m = ((HIDDEN_SHARE * sqrtf(share * lasting)) + share) * length;
-    doubt.share = find_fake(self, doubt.y);
-    const bool enough = sums->blocks >= BLOCKS_MIN;
-    const bounds_t b[2] = {enough ? bounds_of(cfg, self, 0u, &doubt) : unknown_bounds(),
-                           enough ? bounds_of(cfg, self, 1u, &doubt) : unknown_bounds()};
-    name_what_is_missing(cfg, self, b, doubt.hidden_m);
+    self->verdict.misfit = sqrtf(share);
+    self->as.inverse.hidden_m = ((HIDDEN_SHARE * sqrtf(share * lasting)) + share) * length;
+}
+
+static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
+{
+    jcal_center_verdict_t *const verdict = &self->verdict;
+    const bool enough = self->sums.blocks >= BLOCKS_MIN;
+    const jcal_center_bounds_t unknown = unknown_bounds();
+    const jcal_center_bounds_t b[2] = {enough ? self->as.inverse.bounds[0] : unknown,
+                                       enough ? self->as.inverse.bounds[1] : unknown};
+    name_what_is_missing(cfg, self, b, self->as.inverse.hidden_m);
     verdict->bound1_m = b[0].all;
     verdict->bound2_m = b[1].all;
     verdict->weakest1_m = b[0].weakest;
@@ -311,9 +306,14 @@ bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self
         return factor(cfg, self);
     }
     if (slice <= 6u) {
-        column(&self->inverse, slice - 1u);
-    } else if (slice <= 8u) {
+        column(&self->as.inverse, slice - 1u);
+    } else if (slice <= 12u) {
         covariance(cfg, self, slice - 7u);
+    } else if (slice == 13u) {
+        find_hidden(self);
+        find_fake(self);
+    } else if (slice <= 15u) {
+        self->as.inverse.bounds[slice - 14u] = bounds_of(cfg, self, slice - 14u);
     } else {
         judge(cfg, self);
     }
@@ -340,5 +340,5 @@ void jcal_center_solve(const jcal_center_config_t *cfg, const jcal_center_work_t
     for (size_t i = 0u; i < N; ++i) {
         d[i] = -d[i];
     }
-    jcal_chol_solve_scaled(self->inverse.factor, N, self->inverse.scale, d);
+    jcal_chol_solve_scaled(self->as.inverse.factor, N, self->as.inverse.scale, d);
 }

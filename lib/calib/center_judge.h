@@ -12,12 +12,12 @@
 
 #include "jointcal/center.h"
 
-/// Slices of the work: the factor, six columns of the inverse, two covariances, the verdict.
-#define JCAL_CENTER_JUDGE_SLICES 10u
+/// Slices of the work: the factor, six columns of the inverse, six rows of two covariances, doubts, two bounds, the verdict.
+#define JCAL_CENTER_JUDGE_SLICES 17u
 
 /// Does slice `slice` of the work on bounds and status. Slice 0 may fail: then the slices after it have nothing to do.
 ///
-/// Cost: at most about 900 multiply-adds.
+/// Cost: at most about 400 multiply-adds.
 bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self, unsigned slice);
 
 /// d (12) <- the Gauss-Newton step of the estimate, from the factor that slice 0 made.

@@ -81,12 +81,10 @@ static void slope_of(const jcal_center_place_t *place, size_t unknown, size_t *a
     }
 }
 
-float jcal_center_form(const float *moments, const jcal_center_place_t *place, float *gradient, float *matrix)
+float jcal_center_form(const float *moments, const jcal_center_place_t *place, float *gradient)
 {
-    size_t at[JCAL_CENTER_PLACE_UNKNOWNS][4];
-    float value[JCAL_CENTER_PLACE_UNKNOWNS][4];
     float phi[JCAL_CENTER_FEATURES];
-    float on[JCAL_CENTER_FEATURES]; /* M phi, then M dphi */
+    float on[JCAL_CENTER_FEATURES]; /* M phi */
     jcal_center_monomials(place, phi);
     jcal_sym_times(moments, JCAL_CENTER_FEATURES, phi, on);
     float cost = 0.0f;
@@ -94,24 +92,31 @@ float jcal_center_form(const float *moments, const jcal_center_place_t *place, f
         cost += phi[i] * on[i];
     }
     for (size_t i = 0u; i < JCAL_CENTER_PLACE_UNKNOWNS; ++i) {
-        slope_of(place, i, at[i], value[i]);
-        gradient[i] = 0.0f;
-        for (size_t k = 0u; k < 4u; ++k) {
-            gradient[i] += value[i][k] * on[at[i][k]];
-        }
-    }
-    for (size_t i = 0u; i < JCAL_CENTER_PLACE_UNKNOWNS; ++i) {
-        for (size_t j = 0u; j <= i; ++j) {
-            float sum = 0.0f;
-            for (size_t k = 0u; k < 4u; ++k) {
-                for (size_t l = 0u; l < 4u; ++l) {
-                    sum += value[i][k] * value[j][l] * moments[jcal_sym_at(at[i][k], at[j][l])];
-                }
-            }
-            matrix[jcal_sym_at(i, j)] = sum;
-        }
+        size_t at[4];
+        float value[4];
+        slope_of(place, i, at, value);
+        gradient[i] = (value[0] * on[at[0]]) + (value[1] * on[at[1]]) + (value[2] * on[at[2]]) + (value[3] * on[at[3]]);
     }
     return cost;
+}
+
+void jcal_center_form_row(const float *moments, const jcal_center_place_t *place, size_t row, float *matrix)
+{
+    size_t at[4];
+    float value[4];
+    slope_of(place, row, at, value);
+    for (size_t j = 0u; j <= row; ++j) {
+        size_t other_at[4];
+        float other[4];
+        slope_of(place, j, other_at, other);
+        float sum = 0.0f;
+        for (size_t k = 0u; k < 4u; ++k) {
+            for (size_t l = 0u; l < 4u; ++l) {
+                sum += value[k] * other[l] * moments[jcal_sym_at(at[k], other_at[l])];
+            }
+        }
+        matrix[jcal_sym_at(row, j)] = sum;
+    }
 }
 
 /* sign times the derivatives of |a - b - K r| by r and b, along its direction. */

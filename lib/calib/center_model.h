@@ -14,6 +14,8 @@
 #include "jointcal/center.h"
 #include "sample/kinematics.h"
 
+#include <stddef.h>
+
 /// Unknowns of the squared form: r1, r2.
 #define JCAL_CENTER_PLACE_UNKNOWNS 6u
 
@@ -23,10 +25,11 @@ void jcal_center_features(const jcal_kinematic_t *sample, float *f);
 /// phi (19) at a place.
 void jcal_center_monomials(const jcal_center_place_t *place, float *phi);
 
-/// Cost phi' M phi at a place, M the packed moments of f, with half its gradient (6) and its Gauss-Newton matrix (6 x 6, packed).
-///
-/// Cost: about 1000 multiply-adds.
-float jcal_center_form(const float *moments, const jcal_center_place_t *place, float *gradient, float *matrix);
+/// Cost phi' M phi at a place, M the packed moments of f, with half its gradient (6). Cost: about 450 multiply-adds.
+float jcal_center_form(const float *moments, const jcal_center_place_t *place, float *gradient);
+
+/// One row of its Gauss-Newton matrix (6 x 6, packed). Cost: at most about 200 multiply-adds.
+void jcal_center_form_row(const float *moments, const jcal_center_place_t *place, size_t row, float *matrix);
 
 /// A residual with its derivatives.
 typedef struct {
