@@ -11,6 +11,7 @@
 
 #include "jointcal/center.h"
 #include "jointcal/center_window.h"
+#include "jointcal/chain.h"
 #include "jointcal/config.h"
 #include "jointcal/gate.h"
 #include "jointcal/hinge.h"

@@ -265,9 +265,20 @@ static void step_start(jcal_center_t *self)
     self->turn = (uint8_t)((self->turn + 1u) % TURNS_START);
 }
 
-static float apart(const jcal_center_place_t *a, const jcal_center_place_t *b)
+/// Mean square by which a - K r changes between a place and where the sums began, times the sum of the weights. Along an axis that
+/// leaves all that as it is, a hinge's, the estimate may wander. Rows see one of three components.
+static float change_since(const jcal_center_sums_t *sums, const jcal_center_place_t *to)
 {
-    return jcal_max(jcal_vec3_norm(jcal_vec3_sub(a->r1, b->r1)), jcal_vec3_norm(jcal_vec3_sub(a->r2, b->r2)));
+    const jcal_vec3_t way1 = jcal_vec3_sub(to->r1, sums->anchor.r1);
+    const jcal_vec3_t way2 = jcal_vec3_sub(to->r2, sums->anchor.r2);
+    const float way[JCAL_CENTER_PLACE_UNKNOWNS] = {way1.x, way1.y, way1.z, way2.x, way2.y, way2.z};
+    float on[JCAL_CENTER_PLACE_UNKNOWNS];
+    float sum = 0.0f;
+    jcal_sym_times(sums->matrix, JCAL_CENTER_PLACE_UNKNOWNS, way, on); /* the leading block */
+    for (size_t i = 0u; i < JCAL_CENTER_PLACE_UNKNOWNS; ++i) {
+        sum += way[i] * on[i];
+    }
+    return 3.0f * sum;
 }
 
 static void begin_sums(jcal_center_t *self, const jcal_center_place_t *place, jcal_plane_t heading)
@@ -287,9 +298,8 @@ static void step_point(jcal_center_t *self)
     jcal_center_place_t to = self->work.sums.point.place;
     to.r1 = jcal_vec3_add(to.r1, jcal_vec3(d[0], d[1], d[2]));
     to.r2 = jcal_vec3_add(to.r2, jcal_vec3(d[3], d[4], d[5]));
-    const float way = apart(&to, &self->work.sums.anchor);
     const float limit = LINEAR_M_S2 * LINEAR_M_S2 * self->work.sums.weight;
-    if (!((way * way * jcal_center_row_power(&self->work.sums)) > limit)) {
+    if (!(change_since(&self->work.sums, &to) > limit)) {
         jcal_center_sums_move(&self->work.sums, d);
     } else if (self->work.sums.time_s > SETTLED_S) {
         begin_sums(self, &to, self->work.sums.point.heading);

@@ -123,6 +123,12 @@ static float radius(const float *c)
     return sqrtf(jcal_max(trace + (2.0f * sqrtf(2.0f * squares)), 0.0f));
 }
 
+float jcal_center_radius_across(float *c, jcal_vec3_t axis)
+{
+    across(c, axis);
+    return radius(c);
+}
+
 static jcal_center_bounds_t unknown_bounds(void)
 {
     const jcal_center_bounds_t b = {
@@ -222,8 +228,7 @@ static jcal_center_bounds_t bounds_of(const jcal_center_config_t *cfg, const jca
     if (!is_along_axis(own, axis)) {
         (void)memcpy(known, larger, sizeof known);
     }
-    across(known, axis);
-    b.all = bound(radius(known), inverse->hidden_m, mismatch_m);
+    b.all = bound(jcal_center_radius_across(known, axis), inverse->hidden_m, mismatch_m);
     return b;
 }
 

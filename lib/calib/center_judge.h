@@ -20,6 +20,9 @@
 /// Cost: at most about 400 multiply-adds.
 bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self, unsigned slice);
 
+/// 95 % radius of a Gaussian in space with covariance c (3 x 3, packed; lost), the part along a unit vector left out if it is not zero.
+float jcal_center_radius_across(float *c, jcal_vec3_t axis);
+
 /// d (12) <- the Gauss-Newton step of the estimate, from the factor that slice 0 made.
 void jcal_center_solve(const jcal_center_config_t *cfg, const jcal_center_work_t *self, float *d);
 

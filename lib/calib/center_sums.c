@@ -227,15 +227,6 @@ void jcal_center_sums_move(jcal_center_sums_t *self, const float *d)
     }
 }
 
-float jcal_center_row_power(const jcal_center_sums_t *self)
-{
-    float sum = 0.0f;
-    for (size_t i = 0u; i < 6u; ++i) {
-        sum += self->matrix[jcal_sym_at(i, i)];
-    }
-    return 0.5f * sum;
-}
-
 void jcal_center_sums_halve(jcal_center_sums_t *self)
 {
     jcal_sym_scale(self->matrix, N, 0.5f);

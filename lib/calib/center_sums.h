@@ -46,9 +46,6 @@ void jcal_center_sums_gradient(const jcal_center_sums_t *self, const float *prio
 /// Moves the estimate by d (12) and all sums with it.
 void jcal_center_sums_move(jcal_center_sums_t *self, const float *d);
 
-/// Sum of the squared derivatives by r1 and by r2, mean of both: over the sum of the weights, mean square of K's effect, 1/s^4.
-float jcal_center_row_power(const jcal_center_sums_t *self);
-
 /// Halves what the sums weigh.
 void jcal_center_sums_halve(jcal_center_sums_t *self);
 
