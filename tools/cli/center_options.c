@@ -68,19 +68,6 @@ typedef struct {
     bool has_window;
 } parse_t;
 
-/* Index of `word` among `count` names; anything else is an error. */
-static int option_one_of(struct argp_state *state, const char *option, const char *word, const char *const *names,
-                         int count)
-{
-    for (int k = 0; k < count; k++) {
-        if (strcmp(word, names[k]) == 0) {
-            return k;
-        }
-    }
-    argp_error(state, "--%s: '%s' is neither %s, %s nor %s", option, word, names[0], names[1], names[2]);
-    return 0;
-}
-
 /* The buffer's length in samples, whichever way it was given. */
 static void settle_window(struct argp_state *state, parse_t *parse)
 {
@@ -139,10 +126,10 @@ static error_t parse_values(int key, char *argument, struct argp_state *state)
     jcal_center_config_t *center = &parse->options.engine.config.center;
     switch (key) {
     case KEY_METHOD:
-        center->method = (jcal_center_method_t)option_one_of(state, "method", argument, methods, 3);
+        center->method = (jcal_center_method_t)option_one_of_three(state, "method", argument, methods);
         return 0;
     case KEY_DERIVATIVE:
-        center->derivative = (jcal_derivative_t)option_one_of(state, "derivative", argument, derivatives, 3);
+        center->derivative = (jcal_derivative_t)option_one_of_three(state, "derivative", argument, derivatives);
         return 0;
     case KEY_MIN_RATE:
         center->min_rate_rad_s = option_not_negative(state, "min-rate", argument);

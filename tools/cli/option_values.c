@@ -16,6 +16,18 @@ int option_one_of_two(struct argp_state *state, const char *option, const char *
     return strcmp(word, first) != 0;
 }
 
+int option_one_of_three(struct argp_state *state, const char *option, const char *word,
+                        const char *const names[static 3])
+{
+    for (int k = 0; k < 3; k++) {
+        if (strcmp(word, names[k]) == 0) {
+            return k;
+        }
+    }
+    argp_error(state, "--%s: '%s' is neither %s, %s nor %s", option, word, names[0], names[1], names[2]);
+    return 0;
+}
+
 int64_t option_duration(struct argp_state *state, const char *option, const char *text)
 {
     int64_t us = 0;

@@ -11,6 +11,10 @@
 int option_one_of_two(struct argp_state *state, const char *option, const char *word, const char *first,
                       const char *second);
 
+/// The same for three.
+int option_one_of_three(struct argp_state *state, const char *option, const char *word,
+                        const char *const names[static 3]);
+
 /// Seconds, more than zero; in microseconds.
 int64_t option_duration(struct argp_state *state, const char *option, const char *text);
 
