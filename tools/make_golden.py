@@ -217,8 +217,8 @@ def center_header() -> str:
     point = np.round(np.random.default_rng(SEED + 1).uniform(-0.3, 0.3, 12), 2)
     model = {"bias": 0.3, "reach_m": 0.3, "noise": (0.05, 0.01)}
     bodies = []
-    for kind in ("smoothed", "five-point", "symmetric"):
-        s = ols17.prepare(rec, kind)
+    for kind, smoothing_s in (("five-point", 0.24), ("five-point", 0.0), ("symmetric", 0.0)):
+        s = ols17.prepare(rec, kind, smoothing_s)
         bodies.append(np.hstack([s.a1, s.k1.reshape(-1, 9), s.a2, s.k2.reshape(-1, 9)])[:CENTER_SHOWN])
     plain = ols17.prepare(rec)
     fits = [ols17.solve_lengths(plain, absolute=absolute, **model) for absolute in (False, True)]
@@ -226,11 +226,11 @@ def center_header() -> str:
     tables = [
         table("golden_samples", "gyr1, rad/s, acc1, m/s^2, gyr2, acc2.", np.hstack([rec.gyr1, rec.acc1, rec.gyr2, rec.acc2]), "float"),
         table("golden_point", "r1, r2, m, and biases, m/s^2, of the rows.", point[None], "float"),
-        table("golden_smoothed", f"First bodies, five points and smoothed: {shape}.", bodies[0]),
+        table("golden_smoothed", f"First bodies, five points, smoothed over 0.24 s: {shape}.", bodies[0]),
         table("golden_five_point", f"First bodies, five points: {shape}.", bodies[1]),
         table("golden_symmetric", f"First bodies, (8): {shape}.", bodies[2]),
-        table("golden_rows", "Of these bodies, smoothed, at the point: (16), its slopes by r1, r2, b1, b2, |K1 r1|^2 + |K2 r2|^2.",
-              center_rows(plain.take(slice(CENTER_SHOWN)), point)),
+        table("golden_rows", "Of the unsmoothed bodies, five points, at the point: (16), its slopes by r1, r2, b1, b2, |K1 r1|^2 + |K2 r2|^2.",
+              center_rows(ols17.prepare(rec, smoothing_s=0.0).take(slice(CENTER_SHOWN)), point)),
         table("golden_fits", "SS and SA with the default weights and priors: r1, r2, m, and biases, m/s^2.",
               np.array([np.concatenate([f.r1, f.r2, f.bias1, f.bias2]) for f in fits])),
     ]

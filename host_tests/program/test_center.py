@@ -114,7 +114,7 @@ class Accepted(CenterTest):
 
     def test_options_count(self):
         plain = self.lines(FILE)
-        for option in ("--derivative=symmetric", "--derivative=five-point", "--min-rate=2", "--acc-bias=0", "--window=10"):
+        for option in ("--derivative=symmetric", "--smoothing=0", "--smoothing=0.2", "--min-rate=2", "--acc-bias=0", "--window=10"):
             self.assertNotEqual(self.lines(FILE, option), plain, option)
         self.assertEqual(self.lines(FILE, "--max-bound", "0.0012")[1], 3)
         self.assertEqual(self.lines(FILE, "--engine=window", "--n-max=400"), self.lines(FILE, "--engine=window", "--window=8"))
@@ -149,7 +149,7 @@ class Refused(CenterTest):
     def test_help(self):
         result = self.run_program("center", "--help")
         self.assertEqual(result.returncode, 0)
-        for option in ("method", "derivative", "min-rate", "acc-bias", "calibration", "engine", "n-max", "window", "every",
+        for option in ("method", "derivative", "smoothing", "min-rate", "acc-bias", "calibration", "engine", "n-max", "window", "every",
                        "max-bound", "json"):
             self.assertIn("--" + option, result.stdout.decode())
         self.assertIn("center", self.run_program("--help").stdout.decode())
@@ -165,7 +165,7 @@ class Refused(CenterTest):
         self.assert_usage(["center", "a", "--method", "best"], "--method: 'best' is neither ss, sa nor ls")
         self.assert_usage(["center", "a", "--derivative", "x"], "--derivative: 'x' is neither")
         for option, values in (("window", ("0", "9", "3601", "x")), ("max-bound", ("0", "0.2", "10", "x", "inf")),
-                               ("acc-bias", ("-1", "2.1", "x")), ("min-rate", ("-1", "21", "nan"))):
+                               ("acc-bias", ("-1", "2.1", "x")), ("min-rate", ("-1", "21", "nan")), ("smoothing", ("-1", "2.1", "x"))):
             for value in values:
                 self.assert_usage(["center", "a", f"--{option}={value}"], "--" + option)
         for value in ("49", "20001", "70000", "50.5", "x"):

@@ -211,7 +211,8 @@ static void exchanged_sensors_give_the_exchanged_result(void)
                           (double)a.joint_to_sensor2_m.z};
     TEST_ASSERT_TRUE(center_error(b.joint_to_sensor2_m, r1) < 1e-4);
     TEST_ASSERT_TRUE(center_error(b.joint_to_sensor1_m, r2) < 1e-4);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f, a.uncertainty1_m, b.uncertainty2_m);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, a.uncertainty1_m,
+                             b.uncertainty2_m); /* rounding may begin the sums a sample earlier */
 }
 
 /* Runs a motion; never ready. The last result. */
@@ -459,10 +460,11 @@ static void every_field_out_of_its_range_is_named(void)
         float *field;
         float low, high;
     } fields[] = {
-        {"max_bound_m", &c.max_bound_m, 0.001f, 0.1f},       {"mismatch_m", &c.mismatch_m, 0.0f, 0.05f},
-        {"acc_noise_m_s2", &c.acc_noise_m_s2, 1e-3f, 10.0f}, {"turn_error", &c.turn_error, 0.0f, 0.5f},
-        {"acc_bias_m_s2", &c.acc_bias_m_s2, 0.0f, 2.0f},     {"min_rate_rad_s", &c.min_rate_rad_s, 0.0f, 20.0f},
-        {"memory_s", &c.memory_s, 10.0f, 3600.0f},           {"gate.frozen_s", &c.gate.frozen_s, 0.02f, 10.0f},
+        {"max_bound_m", &c.max_bound_m, 0.001f, 0.1f},          {"mismatch_m", &c.mismatch_m, 0.0f, 0.05f},
+        {"acc_noise_m_s2", &c.acc_noise_m_s2, 1e-3f, 10.0f},    {"turn_error", &c.turn_error, 0.0f, 0.5f},
+        {"acc_bias_m_s2", &c.acc_bias_m_s2, 0.0f, 2.0f},        {"min_rate_rad_s", &c.min_rate_rad_s, 0.0f, 20.0f},
+        {"smoothing_s", &c.kinematics.smoothing_s, 0.0f, 2.0f}, {"memory_s", &c.memory_s, 10.0f, 3600.0f},
+        {"gate.frozen_s", &c.gate.frozen_s, 0.02f, 10.0f},
     };
     TEST_ASSERT_NULL(jcal_center_config_check(&config));
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; ++i) {
@@ -483,7 +485,7 @@ static void every_field_out_of_its_range_is_named(void)
     c.method = (jcal_center_method_t)3;
     TEST_ASSERT_EQUAL_STRING("method", jcal_center_config_check(&c));
     c = config;
-    c.derivative = (jcal_derivative_t)3;
+    c.kinematics.derivative = (jcal_derivative_t)2;
     TEST_ASSERT_EQUAL_STRING("derivative", jcal_center_config_check(&c));
     c = config;
     c.hinge_axis1 = jcal_vec3(0.5f, 0.0f, 0.0f);

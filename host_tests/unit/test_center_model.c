@@ -12,6 +12,7 @@
 #include <unity.h>
 
 #define SAMPLES 60u
+#define READING_S 0.12 /* half of what the default config smooths over */
 
 static jcal_kinematic_t samples[SAMPLES];
 static const double anywhere[12] = {-0.1, 0.04, 0.03, 0.05, 0.12, -0.06, 0.1, -0.2, 0.15, -0.05, 0.12, 0.3};
@@ -20,12 +21,13 @@ void setUp(void)
 {
     center_motion_t m = center_lively(2);
     m.noise = 0.3; /* residuals of some size */
+    const jcal_kinematics_config_t cfg = {JCAL_DERIVATIVE_FIVE_POINT, 0.08f};
     jcal_kinematics_t chain;
     jcal_kinematics_begin(&chain);
     uint32_t k = 0;
     for (unsigned n = 0; n < SAMPLES; ++k) {
         const jcal_pair_t pair = center_sample(&m, k);
-        if (jcal_kinematics_put(&chain, JCAL_DERIVATIVE_SMOOTHED, &pair, NULL, &samples[n])) {
+        if (jcal_kinematics_put(&chain, &cfg, &pair, NULL, &samples[n])) {
             ++n;
         }
     }
@@ -45,13 +47,17 @@ static jcal_center_point_t point_of(const double *x)
     return p;
 }
 
-/* a - b - K r in double. */
+/* a - T b - K r in double. */
 static void remaining(const jcal_body_t *body, const double *r, const double *b, double *v)
 {
-    const jcal_vec3_t *const k = body->k;
-    v[0] = (double)body->a.x - b[0] - ((double)k[0].x * r[0] + (double)k[1].x * r[1] + (double)k[2].x * r[2]);
-    v[1] = (double)body->a.y - b[1] - ((double)k[0].y * r[0] + (double)k[1].y * r[1] + (double)k[2].y * r[2]);
-    v[2] = (double)body->a.z - b[2] - ((double)k[0].z * r[0] + (double)k[1].z * r[1] + (double)k[2].z * r[2]);
+    v[0] = (double)body->a.x;
+    v[1] = (double)body->a.y;
+    v[2] = (double)body->a.z;
+    for (int i = 0; i < 3; ++i) {
+        v[0] -= (double)body->k[i].x * r[i] + (double)body->turn[i].x * b[i];
+        v[1] -= (double)body->k[i].y * r[i] + (double)body->turn[i].y * b[i];
+        v[2] -= (double)body->k[i].z * r[i] + (double)body->turn[i].z * b[i];
+    }
 }
 
 static double square_of(const double *v)
@@ -281,7 +287,7 @@ static void sums_are_weighted_sums_of_rows(void)
         jcal_center_residual_t r;
         TEST_ASSERT_TRUE(jcal_center_residual(&samples[n], &p, &r));
         e[n] = (double)r.e;
-        const double w = (double)samples[n].dt_s / 0.1 / (0.0025 + 1e-4 * (double)r.turn2);
+        const double w = (double)samples[n].dt_s / READING_S / (0.0025 + 1e-4 * (double)r.turn2);
         cost += w * e[n] * e[n];
         apart += w * (double)r.e_apart * (double)r.e_apart;
         gradient3 += w * e[n] * (double)r.row[3];
@@ -295,7 +301,7 @@ static void sums_are_weighted_sums_of_rows(void)
     TEST_ASSERT_TRUE(fabs((double)sums.lagged - lagged) < 1e-4 * cost);
     TEST_ASSERT_TRUE(fabs((double)sums.gradient[3] - gradient3) < 1e-4 * fabs(gradient3));
     TEST_ASSERT_TRUE(fabs((double)sums.matrix[jcal_sym_at(3, 7)] - matrix37) < 1e-3 * fabs(matrix37));
-    TEST_ASSERT_TRUE(fabs((double)sums.noise - time_s / 0.1) < 1e-4 * time_s / 0.1);
+    TEST_ASSERT_TRUE(fabs((double)sums.noise - time_s / READING_S) < 1e-4 * time_s / READING_S);
     TEST_ASSERT_EQUAL_FLOAT(2.0f, sums.blocks); /* 60 samples of 20 ms */
 }
 
@@ -311,7 +317,7 @@ static void absolute_differences_weigh_large_ones_less(void)
         TEST_ASSERT_TRUE(jcal_center_residual(&samples[n], &p, &r));
         const double usual = sqrt(0.0025 + 1e-4 * (double)r.turn2);
         const double e = fabs((double)r.e);
-        cost += (double)samples[n].dt_s / 0.1 * ((e > usual) ? (e / usual) : (e * e / (usual * usual)));
+        cost += (double)samples[n].dt_s / READING_S * ((e > usual) ? (e / usual) : (e * e / (usual * usual)));
     }
     TEST_ASSERT_TRUE(fabs((double)sums.cost - cost) < 1e-4 * cost);
 }
@@ -346,8 +352,8 @@ static void moving_the_estimate_is_summing_there(void)
 static void a_large_step_drops_the_blocks_and_no_more(void)
 {
     const jcal_center_config_t cfg = jcal_center_config_default();
-    const double wrong[12] = {0.18, 0.34, -0.25, 0.03, 0.16, -0.04};
-    const float to_truth[12] = {-0.3f, -0.3f, 0.3f};
+    const double wrong[12] = {1.88, 2.04, -1.95, 0.03, 0.16, -0.04};
+    const float to_truth[12] = {-2.0f, -2.0f, 2.0f};
     const jcal_center_point_t p = point_of(wrong);
     jcal_center_sums_t sums = summed(&cfg, &p);
     const jcal_center_sums_t before = sums;

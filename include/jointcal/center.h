@@ -61,10 +61,10 @@ typedef struct {
 
 /// Settings that both engines share. Start from jcal_center_config_default().
 typedef struct {
-    jcal_gate_config_t gate;       ///< Limits of single samples.
-    jcal_center_method_t method;   ///< Default JCAL_CENTER_SS.
-    jcal_derivative_t derivative;  ///< Default JCAL_DERIVATIVE_SMOOTHED.
-    float max_bound_m;             ///< `ready` needs both bounds below this, m. Range [0.001, 0.1], default 0.01.
+    jcal_gate_config_t gate;              ///< Limits of single samples.
+    jcal_center_method_t method;          ///< Default JCAL_CENTER_SS.
+    jcal_kinematics_config_t kinematics;  ///< Angular accelerations and smoothing.
+    float max_bound_m;  ///< `ready` needs both bounds below this, m. Range [0.001, 0.1], default 0.01.
     /// What the model leaves out (scale, timing, the place of the accelerometer in its case): the floor of every bound, m.
     /// Range [0, 0.05], default 0.002.
     float mismatch_m;
@@ -183,11 +183,12 @@ typedef struct {
     float heading_s;            ///< ... and its time.
     jcal_center_work_t work;
     jcal_watch_t watch;
-    float moving_s;  ///< Time of motion in the moments.
-    uint64_t t_us;   ///< Time of the last sample in the sums.
-    uint8_t turn;    ///< Next item of the cycle.
-    bool has_start;  ///< `start` is a minimum.
-    bool has_point;  ///< The sums have begun.
+    float moving_s;   ///< Time of motion in the moments.
+    uint64_t t_us;    ///< Time of the last sample in the sums.
+    uint8_t turn;     ///< Next item of the cycle.
+    bool has_start;   ///< `start` is a minimum.
+    bool has_point;   ///< The sums have begun.
+    bool has_worked;  ///< Work was done since the last sample.
 } jcal_center_t;
 
 /// The defaults described at each field.

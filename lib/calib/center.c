@@ -53,7 +53,7 @@ jcal_center_config_t jcal_center_config_default(void)
     const jcal_center_config_t config = {
         .gate = jcal_gate_config_default(),
         .method = JCAL_CENTER_SS,
-        .derivative = JCAL_DERIVATIVE_SMOOTHED,
+        .kinematics = {.derivative = JCAL_DERIVATIVE_FIVE_POINT, .smoothing_s = 0.24f},
         .max_bound_m = 0.01f,
         .mismatch_m = 0.002f,
         .acc_noise_m_s2 = 0.05f,
@@ -86,6 +86,7 @@ const char *jcal_center_config_check(const jcal_center_config_t *config)
         {"turn_error", config->turn_error, 0.0f, 0.5f},
         {"acc_bias_m_s2", config->acc_bias_m_s2, 0.0f, 2.0f},
         {"min_rate_rad_s", config->min_rate_rad_s, 0.0f, 20.0f},
+        {"smoothing_s", config->kinematics.smoothing_s, 0.0f, 2.0f},
         {"memory_s", config->memory_s, 10.0f, 3600.0f},
     };
     for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
@@ -97,8 +98,8 @@ const char *jcal_center_config_check(const jcal_center_config_t *config)
     if ((method < (int)JCAL_CENTER_SS) || (method > (int)JCAL_CENTER_LS)) {
         return "method";
     }
-    const int derivative = (int)config->derivative;
-    if ((derivative < (int)JCAL_DERIVATIVE_SMOOTHED) || (derivative > (int)JCAL_DERIVATIVE_SYMMETRIC)) {
+    const int derivative = (int)config->kinematics.derivative;
+    if ((derivative < (int)JCAL_DERIVATIVE_FIVE_POINT) || (derivative > (int)JCAL_DERIVATIVE_SYMMETRIC)) {
         return "derivative";
     }
     if (!is_axis(config->hinge_axis1)) {
@@ -172,7 +173,7 @@ static void add_moments(jcal_center_t *self, const jcal_kinematic_t *sample)
     const float force = jcal_vec3_norm(sample->body1.a) + jcal_vec3_norm(sample->body2.a);
     const float noise = self->cfg.acc_noise_m_s2 * jcal_max(force, 1.0f);
     jcal_sym_rank1(self->work.as.moments, JCAL_CENTER_FEATURES, f,
-                   sample->dt_s / (JCAL_CENTER_READING_S * noise * noise));
+                   sample->dt_s / (jcal_center_reading_s(&self->cfg) * noise * noise));
 }
 
 static float memory_s(const jcal_center_config_t *cfg)
@@ -235,7 +236,7 @@ static bool is_known(const jcal_center_t *self, float *matrix, float cost)
     for (size_t i = 0u; i < JCAL_CENTER_PLACE_UNKNOWNS; ++i) {
         trace += inverse[jcal_sym_at(i, i)];
     }
-    const float excess = jcal_max(1.0f, cost * JCAL_CENTER_READING_S / self->moving_s);
+    const float excess = jcal_max(1.0f, cost * jcal_center_reading_s(&self->cfg) / self->moving_s);
     return (trace * excess) < (START_M * START_M);
 }
 
@@ -299,10 +300,15 @@ static void step_point(jcal_center_t *self)
     to.r1 = jcal_vec3_add(to.r1, jcal_vec3(d[0], d[1], d[2]));
     to.r2 = jcal_vec3_add(to.r2, jcal_vec3(d[3], d[4], d[5]));
     const float limit = LINEAR_M_S2 * LINEAR_M_S2 * self->work.sums.weight;
-    if (!(change_since(&self->work.sums, &to) > limit)) {
+    const bool is_ready =
+        self->work.verdict.status == (uint8_t)JCAL_READY; /* nothing that is known so well is thrown away */
+    if (is_ready || !(change_since(&self->work.sums, &to) > limit)) {
         jcal_center_sums_move(&self->work.sums, d);
     } else if (self->work.sums.time_s > SETTLED_S) {
-        begin_sums(self, &to, self->work.sums.point.heading);
+        const jcal_center_point_t before = self->work.sums.point;
+        begin_sums(self, &to, before.heading);
+        self->work.sums.point.b1 = before.b1;
+        self->work.sums.point.b2 = before.b2;
         self->turn = TURN_FACTOR;
     } else {
         /* too little data to follow */
@@ -351,12 +357,14 @@ jcal_status_t jcal_center_step(jcal_center_t *self)
     if (event == JCAL_CENTER_NONE) {
         return JCAL_IDLE;
     }
-    if (event == JCAL_CENTER_WAITS) {
-        return JCAL_OK;
-    }
     if (event == JCAL_CENTER_SAMPLE) {
         take_in(self, &sample);
     }
+    if ((event != JCAL_CENTER_WAITS) && self->has_worked) {
+        self->has_worked = false; /* samples and work take turns if there is a push for each */
+        return JCAL_OK;
+    }
+    self->has_worked = event == JCAL_CENTER_WAITS;
     if (self->has_point) {
         work_at_point(self);
     } else {

@@ -53,7 +53,7 @@ jcal_center_input_event_t jcal_center_input_take(jcal_center_input_t *self, cons
     if (!jcal_inbox_take(&self->inbox, &pair)) {
         return JCAL_CENTER_NONE;
     }
-    if (!jcal_kinematics_put(&self->kinematics, cfg->derivative, &pair, is_oriented ? &attitudes : NULL, sample)) {
+    if (!jcal_kinematics_put(&self->kinematics, &cfg->kinematics, &pair, is_oriented ? &attitudes : NULL, sample)) {
         return JCAL_CENTER_WAITS;
     }
     const float least = cfg->min_rate_rad_s * cfg->min_rate_rad_s;

@@ -22,6 +22,9 @@
 
 /// The share of what remains unexplained and lasts that may have shifted the estimate.
 #define HIDDEN_SHARE 0.5f
+/// With more smoothing than this, s, samples that share no reading are so far apart that what lasts between them says little: all of
+/// what remains may last then, and in proportion, as smoothing takes more of what remains than of the shift.
+#define HIDDEN_S 0.25f
 
 /// Blocks from which the scatter says something, and what is taken from their number.
 #define BLOCKS_MIN 8.0f
@@ -263,15 +266,17 @@ static void name_what_is_missing(const jcal_center_config_t *cfg, jcal_center_wo
 }
 
 /// How far what remains unexplained may have shifted the estimate.
-static void find_hidden(jcal_center_work_t *self)
+static void find_hidden(const jcal_center_config_t *cfg, jcal_center_work_t *self)
 {
+    const float more = jcal_max(cfg->kinematics.smoothing_s / HIDDEN_S, 1.0f);
     const jcal_center_sums_t *const sums = &self->sums;
     const jcal_center_place_t *const place = &sums->point.place;
     const float share = jcal_min(sums->cost / jcal_max(sums->effect, FLT_MIN), 1.0f);
-    const float lasting = jcal_min(jcal_max(sums->lagged, 0.0f) / jcal_max(sums->raw, FLT_MIN), 1.0f);
+    const float lasts = jcal_min(jcal_max(sums->lagged, 0.0f) / jcal_max(sums->raw, FLT_MIN), 1.0f);
+    const float lasting = (more > 1.0f) ? 1.0f : lasts;
     const float length = sqrtf(jcal_max(jcal_vec3_dot(place->r1, place->r1), jcal_vec3_dot(place->r2, place->r2)));
     self->verdict.misfit = sqrtf(share);
-    self->as.inverse.hidden_m = ((HIDDEN_SHARE * sqrtf(share * lasting)) + share) * length;
+    self->as.inverse.hidden_m = ((HIDDEN_SHARE * more * sqrtf(share * lasting)) + share) * length;
 }
 
 static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
@@ -315,7 +320,7 @@ bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self
     } else if (slice <= 12u) {
         covariance(cfg, self, slice - 7u);
     } else if (slice == 13u) {
-        find_hidden(self);
+        find_hidden(cfg, self);
         find_fake(self);
     } else if (slice <= 15u) {
         self->as.inverse.bounds[slice - 14u] = bounds_of(cfg, self, slice - 14u);

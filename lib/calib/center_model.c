@@ -126,15 +126,15 @@ static void own_row(const jcal_body_t *body, jcal_vec3_t along, float *by_r, flo
     by_r[0] = -jcal_vec3_dot(k[0], along);
     by_r[1] = -jcal_vec3_dot(k[1], along);
     by_r[2] = -jcal_vec3_dot(k[2], along);
-    by_b[0] = -along.x;
-    by_b[1] = -along.y;
-    by_b[2] = -along.z;
+    by_b[0] = -jcal_vec3_dot(body->turn[0], along);
+    by_b[1] = -jcal_vec3_dot(body->turn[1], along);
+    by_b[2] = -jcal_vec3_dot(body->turn[2], along);
 }
 
 bool jcal_center_residual(const jcal_kinematic_t *sample, const jcal_center_point_t *point, jcal_center_residual_t *out)
 {
-    const jcal_vec3_t a1 = jcal_vec3_sub(sample->body1.a, point->b1);
-    const jcal_vec3_t a2 = jcal_vec3_sub(sample->body2.a, point->b2);
+    const jcal_vec3_t a1 = jcal_vec3_sub(sample->body1.a, jcal_body_turn(&sample->body1, point->b1));
+    const jcal_vec3_t a2 = jcal_vec3_sub(sample->body2.a, jcal_body_turn(&sample->body2, point->b2));
     const jcal_vec3_t turn1 = jcal_body_times(&sample->body1, point->place.r1);
     const jcal_vec3_t turn2 = jcal_body_times(&sample->body2, point->place.r2);
     const jcal_vec3_t v1 = jcal_vec3_sub(a1, turn1);

@@ -25,6 +25,8 @@
 #define LARGE_STEP 50.0f
 /// Samples after which what sensors' noise left in a residual is forgotten: the derivative's taps meet no more.
 #define LAG 4u
+/// Time of a reading without smoothing, s.
+#define READING_S 0.1f
 
 void jcal_center_sums_begin(jcal_center_sums_t *self, const jcal_center_place_t *place)
 {
@@ -39,6 +41,11 @@ void jcal_center_sums_begin_oriented(jcal_center_sums_t *self, const jcal_center
     jcal_center_sums_begin(self, place);
     self->point.heading = jcal_plane_direction(heading);
     self->point.is_oriented = true;
+}
+
+float jcal_center_reading_s(const jcal_center_config_t *cfg)
+{
+    return jcal_max(READING_S, 0.5f * cfg->kinematics.smoothing_s);
 }
 
 float jcal_center_variance(const jcal_center_config_t *cfg, const jcal_center_residual_t *residual)
@@ -62,7 +69,7 @@ void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *
                           const jcal_center_residual_t *residual, float dt_s)
 {
     const float variance = jcal_center_variance(cfg, residual);
-    const float readings = dt_s / JCAL_CENTER_READING_S;
+    const float readings = dt_s / jcal_center_reading_s(cfg);
     float *const recent = self->recent[residual->part];
     float weight = readings / variance;
     if (cfg->method == JCAL_CENTER_SA) {

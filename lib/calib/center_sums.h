@@ -10,8 +10,8 @@
 
 #include "calib/center_model.h"
 
-/// Residuals of this time are taken to agree by chance, s: one reading.
-#define JCAL_CENTER_READING_S 0.1f
+/// Residuals of this time are taken to agree by chance, s: one reading. 0.1, or half of what is smoothed over.
+float jcal_center_reading_s(const jcal_center_config_t *cfg);
 
 /// Length of a block, s.
 #define JCAL_CENTER_BLOCK_S 0.5f

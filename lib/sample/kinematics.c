@@ -3,6 +3,8 @@
 /// Bins, derivatives and smoothing. See kinematics.h.
 #include "sample/kinematics.h"
 
+#include "math/scalar.h"
+
 #include <stddef.h>
 #include <string.h>
 
@@ -16,12 +18,15 @@
 #define EVEN 1.5f
 
 /// Place of the bin in the middle, counted from the oldest.
-#define MIDDLE 3u
+#define MIDDLE 2u
 
-void jcal_kinematics_begin(jcal_kinematics_t *self)
-{
-    (void)memset(self, 0, sizeof *self);
-}
+/// Weights of the blocks, from the oldest.
+static const float WEIGHTS[JCAL_BLOCKS] = {0.125f, 0.375f, 0.375f, 0.125f};
+#define PER_BLOCK_MAX 100.0f
+/// Bins in a block: rounded down unless nearly one more, and kept as long as blocks go on.
+#define ROUND_FROM 0.25f
+/// Blocks go on over a hole if the next middle bin is not later than this, s: the mean of both rates then leads over it.
+#define BRIDGE_S 0.31f
 
 static void begin_chain(jcal_kinematics_t *self)
 {
@@ -29,6 +34,22 @@ static void begin_chain(jcal_kinematics_t *self)
     self->filled = 0u;
     self->in_bin = 0u;
     self->per_bin = 1u;
+}
+
+static void begin_blocks(jcal_kinematics_t *self)
+{
+    self->blocks = 0u;
+    self->in_block = 0u;
+    (void)memset(&self->filling, 0, sizeof self->filling);
+    self->turn1 = jcal_quat(1.0f, 0.0f, 0.0f, 0.0f);
+    self->turn2 = self->turn1;
+}
+
+void jcal_kinematics_begin(jcal_kinematics_t *self)
+{
+    (void)memset(self, 0, sizeof *self);
+    begin_chain(self);
+    begin_blocks(self);
 }
 
 static void add_reading(jcal_imu_t *sum, const jcal_imu_t *imu)
@@ -64,14 +85,6 @@ static const jcal_imu_t *reading(const jcal_kinematics_t *self, unsigned sensor,
     return (sensor == 1u) ? &at->imu1 : &at->imu2;
 }
 
-/// v turned by the rotation vector `turn`, rad: a true rotation by 2 atan(|turn| / 2).
-static jcal_vec3_t turned(jcal_vec3_t v, jcal_vec3_t turn)
-{
-    const jcal_vec3_t t = jcal_vec3_scale(turn, 0.5f);
-    const jcal_vec3_t on = jcal_vec3_cross(t, jcal_vec3_add(v, jcal_vec3_cross(t, v)));
-    return jcal_vec3_add(v, jcal_vec3_scale(on, 2.0f / (1.0f + jcal_vec3_dot(t, t))));
-}
-
 /// The columns of K.
 static void fill_columns(jcal_vec3_t w, jcal_vec3_t dw, jcal_vec3_t *k)
 {
@@ -81,68 +94,117 @@ static void fill_columns(jcal_vec3_t w, jcal_vec3_t dw, jcal_vec3_t *k)
     k[2] = jcal_vec3((w.x * w.z) + dw.y, (w.y * w.z) - dw.x, (w.z * w.z) - square);
 }
 
-/// What one sensor says in the bin `place`, by a quotient near (w+1 - w-1) + far (w+2 - w-2).
-static jcal_body_t body_at(const jcal_kinematics_t *self, unsigned sensor, size_t place, jcal_plane_t per_s)
-{
-    const jcal_imu_t *const at = reading(self, sensor, place);
-    const jcal_vec3_t near =
-        jcal_vec3_sub(reading(self, sensor, place + 1u)->gyr_rad_s, reading(self, sensor, place - 1u)->gyr_rad_s);
-    const jcal_vec3_t far =
-        jcal_vec3_sub(reading(self, sensor, place + 2u)->gyr_rad_s, reading(self, sensor, place - 2u)->gyr_rad_s);
-    jcal_body_t body;
-    body.a = at->acc_m_s2;
-    body.rate2 = jcal_vec3_dot(at->gyr_rad_s, at->gyr_rad_s);
-    fill_columns(at->gyr_rad_s, jcal_vec3_add(jcal_vec3_scale(near, per_s.re), jcal_vec3_scale(far, per_s.im)), body.k);
-    return body;
-}
-
-/// sum <- (sum + body turned by `turn`) / 2.
-static void blend(jcal_body_t *sum, const jcal_body_t *body, jcal_vec3_t turn)
-{
-    sum->a = jcal_vec3_scale(jcal_vec3_add(sum->a, turned(body->a, turn)), 0.5f);
-    for (size_t i = 0u; i < 3u; ++i) {
-        sum->k[i] = jcal_vec3_scale(jcal_vec3_add(sum->k[i], turned(body->k[i], turn)), 0.5f);
-    }
-}
-
-/// (1, 2, 1)/4 over the middle and its neighbours: the mean of the means with either neighbour.
-static jcal_body_t smoothed(const jcal_kinematics_t *self, unsigned sensor, jcal_plane_t per_s, float spacing_s)
-{
-    const jcal_vec3_t w = reading(self, sensor, MIDDLE)->gyr_rad_s;
-    const jcal_body_t at = body_at(self, sensor, MIDDLE, per_s);
-    jcal_body_t mean[2] = {at, at};
-    for (size_t side = 0u; side < 2u; ++side) {
-        const size_t place = (side == 0u) ? (MIDDLE - 1u) : (MIDDLE + 1u);
-        const float half_s = (side == 0u) ? (-0.5f * spacing_s) : (0.5f * spacing_s);
-        const jcal_body_t neighbour = body_at(self, sensor, place, per_s);
-        const jcal_vec3_t turn = jcal_vec3_scale(jcal_vec3_add(w, reading(self, sensor, place)->gyr_rad_s), half_s);
-        blend(&mean[side], &neighbour, turn);
-    }
-    blend(&mean[0], &mean[1], jcal_vec3(0.0f, 0.0f, 0.0f));
-    return mean[0];
-}
-
-/// The body of one sensor in the middle of a full ring.
+/// The body of one sensor in the middle of a full ring, in its frame: by a quotient near (w+1 - w-1) + far (w+2 - w-2).
 static jcal_body_t body_of(const jcal_kinematics_t *self, unsigned sensor, jcal_derivative_t derivative,
                            float spacing_s)
 {
-    const float per_s = 1.0f / spacing_s;
-    const jcal_plane_t five_point = {per_s * (8.0f / 12.0f), -per_s / 12.0f};
-    const jcal_plane_t symmetric = {0.5f * per_s, 0.0f};
-    if (derivative == JCAL_DERIVATIVE_SMOOTHED) {
-        return smoothed(self, sensor, five_point, spacing_s);
-    }
-    return body_at(self, sensor, MIDDLE, (derivative == JCAL_DERIVATIVE_FIVE_POINT) ? five_point : symmetric);
+    const float near = ((derivative == JCAL_DERIVATIVE_SYMMETRIC) ? 0.5f : (8.0f / 12.0f)) / spacing_s;
+    const float far = ((derivative == JCAL_DERIVATIVE_SYMMETRIC) ? 0.0f : (-1.0f / 12.0f)) / spacing_s;
+    const jcal_imu_t *const at = reading(self, sensor, MIDDLE);
+    const jcal_vec3_t by_near =
+        jcal_vec3_sub(reading(self, sensor, MIDDLE + 1u)->gyr_rad_s, reading(self, sensor, MIDDLE - 1u)->gyr_rad_s);
+    const jcal_vec3_t by_far =
+        jcal_vec3_sub(reading(self, sensor, MIDDLE + 2u)->gyr_rad_s, reading(self, sensor, MIDDLE - 2u)->gyr_rad_s);
+    jcal_body_t body;
+    body.a = at->acc_m_s2;
+    body.rate2 = jcal_vec3_dot(at->gyr_rad_s, at->gyr_rad_s);
+    fill_columns(at->gyr_rad_s, jcal_vec3_add(jcal_vec3_scale(by_near, near), jcal_vec3_scale(by_far, far)), body.k);
+    body.turn[0] = jcal_vec3(1.0f, 0.0f, 0.0f);
+    body.turn[1] = jcal_vec3(0.0f, 1.0f, 0.0f);
+    body.turn[2] = jcal_vec3(0.0f, 0.0f, 1.0f);
+    return body;
 }
 
-/// Turns a body to the earth frame.
-static void to_earth(jcal_body_t *body, jcal_quat_t sum)
+/// Turns a body to another frame.
+static void turn_body(jcal_body_t *body, jcal_quat_t q)
 {
-    const jcal_quat_t q = jcal_quat_normalise(sum);
     body->a = jcal_quat_rotate(q, body->a);
     for (size_t i = 0u; i < 3u; ++i) {
         body->k[i] = jcal_quat_rotate(q, body->k[i]);
+        body->turn[i] = jcal_quat_rotate(q, body->turn[i]);
     }
+}
+
+/// sum <- sum + share body.
+static void add_body(jcal_body_t *sum, const jcal_body_t *body, float share)
+{
+    sum->a = jcal_vec3_add(sum->a, jcal_vec3_scale(body->a, share));
+    sum->rate2 += share * body->rate2;
+    for (size_t i = 0u; i < 3u; ++i) {
+        sum->k[i] = jcal_vec3_add(sum->k[i], jcal_vec3_scale(body->k[i], share));
+        sum->turn[i] = jcal_vec3_add(sum->turn[i], jcal_vec3_scale(body->turn[i], share));
+    }
+}
+
+/// The turn by a rotation vector, rad; right to 1e-6 rad below 0.3 rad.
+static jcal_quat_t turn_by(jcal_vec3_t angle)
+{
+    const jcal_vec3_t half = jcal_vec3_scale(angle, 0.5f);
+    const float h2 = jcal_vec3_dot(half, half);
+    const jcal_vec3_t tangent = jcal_vec3_scale(half, 1.0f + (h2 * ((1.0f / 3.0f) + (h2 * (2.0f / 15.0f)))));
+    return jcal_quat_normalise(jcal_quat(1.0f, tangent.x, tangent.y, tangent.z));
+}
+
+/// How far a sensor turned from the last middle bin to this one: by the cubic through four bins, or over a hole by the mean rate.
+static jcal_vec3_t way_of(const jcal_kinematics_t *self, unsigned sensor, jcal_vec3_t before, float dt_s)
+{
+    const jcal_vec3_t now = reading(self, sensor, MIDDLE)->gyr_rad_s;
+    if (self->middle_us != bin(self, MIDDLE - 1u)->t_us) {
+        return jcal_vec3_scale(jcal_vec3_add(before, now), 0.5f * dt_s);
+    }
+    const jcal_vec3_t outer =
+        jcal_vec3_add(reading(self, sensor, MIDDLE - 2u)->gyr_rad_s, reading(self, sensor, MIDDLE + 1u)->gyr_rad_s);
+    const jcal_vec3_t inner = jcal_vec3_scale(jcal_vec3_add(before, now), 13.0f);
+    return jcal_vec3_scale(jcal_vec3_sub(inner, outer), dt_s / 24.0f);
+}
+
+/// Follows both frames from the last middle bin to this one.
+static void follow_frames(jcal_kinematics_t *self, float block_s)
+{
+    const jcal_bin_t *const middle = bin(self, MIDDLE);
+    const float dt_s = (float)(uint32_t)(middle->t_us - self->middle_us) * MICROSECONDS;
+    if (!self->has_middle || (dt_s > BRIDGE_S)) {
+        const float spacing_s = (float)(uint32_t)(middle->t_us - bin(self, MIDDLE - 1u)->t_us) * MICROSECONDS;
+        const float bins = (block_s / spacing_s) + ROUND_FROM;
+        begin_blocks(self);
+        self->per_block = (uint8_t)jcal_min(jcal_max(bins, 1.0f), PER_BLOCK_MAX);
+    } else {
+        const jcal_quat_t step1 = turn_by(way_of(self, 1u, self->middle1, dt_s));
+        const jcal_quat_t step2 = turn_by(way_of(self, 2u, self->middle2, dt_s));
+        self->turn1 = jcal_quat_normalise(jcal_quat_mul(self->turn1, step1));
+        self->turn2 = jcal_quat_normalise(jcal_quat_mul(self->turn2, step2));
+    }
+    self->has_middle = true;
+    self->middle_us = middle->t_us;
+    self->middle1 = middle->imu1.gyr_rad_s;
+    self->middle2 = middle->imu2.gyr_rad_s;
+}
+
+/// Puts the bodies of the middle bin, in frames that do not turn, into the block; true if that completed four of them, for `out`.
+static bool smooth(jcal_kinematics_t *self, const jcal_bodies_t *bodies, jcal_kinematic_t *out)
+{
+    const unsigned per_block = self->per_block;
+    add_body(&self->filling.body1, &bodies->body1, 1.0f / (float)per_block);
+    add_body(&self->filling.body2, &bodies->body2, 1.0f / (float)per_block);
+    self->in_block = (uint8_t)(self->in_block + 1u);
+    if (self->in_block < per_block) {
+        return false;
+    }
+    self->block[self->next_block] = self->filling;
+    self->next_block = (uint8_t)((self->next_block + 1u) % JCAL_BLOCKS);
+    self->blocks = (uint8_t)((self->blocks < JCAL_BLOCKS) ? (self->blocks + 1u) : JCAL_BLOCKS);
+    self->in_block = 0u;
+    (void)memset(&self->filling, 0, sizeof self->filling);
+    if (self->blocks < JCAL_BLOCKS) {
+        return false;
+    }
+    (void)memset(out, 0, sizeof *out);
+    for (size_t i = 0u; i < JCAL_BLOCKS; ++i) {
+        const jcal_bodies_t *const block = &self->block[(self->next_block + i) % JCAL_BLOCKS];
+        add_body(&out->body1, &block->body1, WEIGHTS[i]);
+        add_body(&out->body2, &block->body2, WEIGHTS[i]);
+    }
+    return true;
 }
 
 /// Puts the bin that is full into the ring.
@@ -180,7 +242,39 @@ static void follow_time(jcal_kinematics_t *self, uint64_t t_us)
     }
 }
 
-bool jcal_kinematics_put(jcal_kinematics_t *self, jcal_derivative_t derivative, const jcal_pair_t *pair,
+/// What a ring that has just got another bin gives.
+static bool emit(jcal_kinematics_t *self, const jcal_kinematics_config_t *cfg, const jcal_attitudes_t *attitudes,
+                 jcal_kinematic_t *out)
+{
+    const uint32_t span_us = bin(self, JCAL_BINS - 1u)->t_us - bin(self, 0u)->t_us;
+    const float spacing_s = (float)span_us * (MICROSECONDS / (float)(JCAL_BINS - 1u));
+    jcal_bodies_t bodies = {body_of(self, 1u, cfg->derivative, spacing_s),
+                            body_of(self, 2u, cfg->derivative, spacing_s)};
+    const bool is_smooth = cfg->smoothing_s > 0.0f;
+    follow_frames(self, cfg->smoothing_s / (float)JCAL_BLOCKS);
+    if (attitudes != NULL) {
+        turn_body(&bodies.body1, jcal_quat_normalise(bin(self, MIDDLE)->attitudes.q1));
+        turn_body(&bodies.body2, jcal_quat_normalise(bin(self, MIDDLE)->attitudes.q2));
+    } else if (is_smooth) {
+        turn_body(&bodies.body1, self->turn1);
+        turn_body(&bodies.body2, self->turn2);
+    } else {
+        /* stays in the sensors' frames */
+    }
+    if (is_smooth) {
+        if (!smooth(self, &bodies, out)) {
+            return false;
+        }
+        out->dt_s = spacing_s * (float)self->per_block;
+    } else {
+        out->body1 = bodies.body1;
+        out->body2 = bodies.body2;
+        out->dt_s = spacing_s;
+    }
+    return true;
+}
+
+bool jcal_kinematics_put(jcal_kinematics_t *self, const jcal_kinematics_config_t *cfg, const jcal_pair_t *pair,
                          const jcal_attitudes_t *attitudes, jcal_kinematic_t *out)
 {
     follow_time(self, pair->t_us);
@@ -199,19 +293,10 @@ bool jcal_kinematics_put(jcal_kinematics_t *self, jcal_derivative_t derivative, 
         return false;
     }
     close_bin(self, pair->t_us);
-    if (self->filled < JCAL_BINS) {
+    if ((self->filled < JCAL_BINS) || !emit(self, cfg, attitudes, out)) {
         return false;
     }
-    const uint32_t span_us = bin(self, JCAL_BINS - 1u)->t_us - bin(self, 0u)->t_us;
     const uint32_t since_us = bin(self, JCAL_BINS - 1u)->t_us - bin(self, MIDDLE)->t_us;
-    const float spacing_s = (float)span_us * (MICROSECONDS / (float)(JCAL_BINS - 1u));
-    out->body1 = body_of(self, 1u, derivative, spacing_s);
-    out->body2 = body_of(self, 2u, derivative, spacing_s);
-    if (attitudes != NULL) {
-        to_earth(&out->body1, bin(self, MIDDLE)->attitudes.q1);
-        to_earth(&out->body2, bin(self, MIDDLE)->attitudes.q2);
-    }
     out->t_us = pair->t_us - since_us;
-    out->dt_s = spacing_s;
     return true;
 }

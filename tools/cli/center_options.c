@@ -15,6 +15,7 @@
 enum {
     KEY_METHOD = 256,
     KEY_DERIVATIVE,
+    KEY_SMOOTHING,
     KEY_MIN_RATE,
     KEY_ACC_BIAS,
     KEY_CALIBRATION,
@@ -33,7 +34,10 @@ static const struct argp_option OPTIONS[] = {
      "differences, which knocks disturb less; ls: squared differences of the vectors, which needs orientations",
      0},
     {"derivative", KEY_DERIVATIVE, "NAME", 0,
-     "How angular accelerations are made. smoothed (default), five-point, or symmetric as published by Olsson and Halvorsen 2017",
+     "How angular accelerations are made: five-point (default), or symmetric as published by Olsson and Halvorsen 2017",
+     0},
+    {"smoothing", KEY_SMOOTHING, "S", 0,
+     "Smooth both sides of the equation over S seconds, 0 to 2 (default 0.24): what skin and straps add is mostly faster than limbs are",
      0},
     {"min-rate", KEY_MIN_RATE, "RAD_S", 0,
      "Leave out samples in which both sensors turn slower than this; 1.2 as published (default 0: rest tells of biases)",
@@ -94,6 +98,9 @@ static void check_config(struct argp_state *state, const center_engine_config_t 
                    (double)config->max_bound_m);
     } else if (field != NULL && strcmp(field, "acc_bias_m_s2") == 0) {
         argp_error(state, "--acc-bias: %g is not a number from 0 to 2 m/s^2", (double)config->acc_bias_m_s2);
+    } else if (field != NULL && strcmp(field, "smoothing_s") == 0) {
+        argp_error(state, "--smoothing: %g is not a number of seconds from 0 to 2",
+                   (double)config->kinematics.smoothing_s);
     } else if (field != NULL) {
         argp_error(state, "--min-rate: %g is not a number from 0 to 20 rad/s", (double)config->min_rate_rad_s);
     } else if (engine->kind == JCAL_ENGINE_WINDOW && jcal_center_window_config_check(&engine->config) != NULL) {
@@ -121,7 +128,6 @@ static void settle(struct argp_state *state, parse_t *parse)
 static error_t parse_values(int key, char *argument, struct argp_state *state)
 {
     static const char *const methods[] = {"ss", "sa", "ls"};
-    static const char *const derivatives[] = {"smoothed", "five-point", "symmetric"};
     parse_t *parse = state->input;
     jcal_center_config_t *center = &parse->options.engine.config.center;
     switch (key) {
@@ -129,7 +135,11 @@ static error_t parse_values(int key, char *argument, struct argp_state *state)
         center->method = (jcal_center_method_t)option_one_of_three(state, "method", argument, methods);
         return 0;
     case KEY_DERIVATIVE:
-        center->derivative = (jcal_derivative_t)option_one_of_three(state, "derivative", argument, derivatives);
+        center->kinematics.derivative =
+            (jcal_derivative_t)option_one_of_two(state, "derivative", argument, "five-point", "symmetric");
+        return 0;
+    case KEY_SMOOTHING:
+        center->kinematics.smoothing_s = option_not_negative(state, "smoothing", argument);
         return 0;
     case KEY_MIN_RATE:
         center->min_rate_rad_s = option_not_negative(state, "min-rate", argument);

@@ -17,7 +17,8 @@ void jcal_batch_center_defaults(jcal_batch_center_options_t *options)
     const jcal_center_config_t config = jcal_center_config_default();
     *options = (jcal_batch_center_options_t){
         .method = (int32_t)config.method,
-        .derivative = (int32_t)config.derivative,
+        .derivative = (int32_t)config.kinematics.derivative,
+        .smoothing_s = config.kinematics.smoothing_s,
         .max_bound_m = config.max_bound_m,
         .mismatch_m = config.mismatch_m,
         .acc_noise_m_s2 = config.acc_noise_m_s2,
@@ -44,7 +45,8 @@ static jcal_center_config_t config_of(const jcal_batch_center_options_t *options
 {
     jcal_center_config_t config = jcal_center_config_default();
     config.method = (jcal_center_method_t)options->method;
-    config.derivative = (jcal_derivative_t)options->derivative;
+    config.kinematics.derivative = (jcal_derivative_t)options->derivative;
+    config.kinematics.smoothing_s = options->smoothing_s;
     config.max_bound_m = options->max_bound_m;
     config.mismatch_m = options->mismatch_m;
     config.acc_noise_m_s2 = options->acc_noise_m_s2;

@@ -13,6 +13,7 @@
 typedef struct {
     int32_t method;
     int32_t derivative;
+    float smoothing_s;
     float max_bound_m;
     float mismatch_m;
     float acc_noise_m_s2;

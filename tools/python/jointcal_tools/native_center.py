@@ -16,14 +16,14 @@ from .native import MOVED, READY, REJECTIONS, library, microseconds
 from .recordings import Recording
 
 COLUMNS = 28
-WORDS = {"method": ("ss", "sa", "ls"), "derivative": ("smoothed", "five-point", "symmetric")}
+WORDS = {"method": ("ss", "sa", "ls"), "derivative": ("five-point", "symmetric")}
 UNKNOWN_M = 10.0
 
 
 class Options(ctypes.Structure):
     """jcal_batch_center_options_t of tools/native/batch_center.h."""
 
-    _fields_ = [("method", ctypes.c_int32), ("derivative", ctypes.c_int32), ("max_bound_m", ctypes.c_float),
+    _fields_ = [("method", ctypes.c_int32), ("derivative", ctypes.c_int32), ("smoothing_s", ctypes.c_float), ("max_bound_m", ctypes.c_float),
                 ("mismatch_m", ctypes.c_float), ("acc_noise_m_s2", ctypes.c_float), ("turn_error", ctypes.c_float),
                 ("acc_bias_m_s2", ctypes.c_float), ("min_rate_rad_s", ctypes.c_float), ("memory_s", ctypes.c_float),
                 ("hinge_axis1", ctypes.c_float * 3), ("hinge_axis2", ctypes.c_float * 3), ("n_max", ctypes.c_int32)]
