@@ -62,7 +62,7 @@ static bool factor(const jcal_center_config_t *cfg, jcal_center_work_t *self)
 {
     jcal_center_inverse_t *const inverse = &self->as.inverse;
     float prior[N];
-    jcal_center_prior(cfg, prior);
+    jcal_center_prior(&self->sums, cfg, prior);
     (void)memcpy(inverse->factor, self->sums.matrix, sizeof inverse->factor);
     for (size_t i = 0u; i < N; ++i) {
         inverse->factor[jcal_sym_at(i, i)] += prior[i];
@@ -84,6 +84,7 @@ static void covariance(const jcal_center_config_t *cfg, jcal_center_work_t *self
     jcal_center_inverse_t *const inverse = &self->as.inverse;
     const jcal_center_sums_t *const sums = &self->sums;
     const float excess = excess_of(sums);
+    const float own = jcal_center_excess(sums); /* of the prior, which is multiplied by it once */
     const float counted = jcal_max(sums->blocks - BLOCKS_LOST, 1.0f) * JCAL_CENTER_BLOCK_S;
     const float few = jcal_max(sums->time_s / counted, 1.0f);
     const size_t sensor = row / 3u;
@@ -91,7 +92,7 @@ static void covariance(const jcal_center_config_t *cfg, jcal_center_work_t *self
     const float *const x = inverse->columns[row];
     float prior[N];
     float spread[N]; /* S x */
-    jcal_center_prior(cfg, prior);
+    jcal_center_prior(&self->sums, cfg, prior);
     jcal_sym_times(sums->scatter, N, x, spread);
     for (size_t j = 0u; j <= i; ++j) {
         const float *const y = inverse->columns[(3u * sensor) + j];
@@ -102,8 +103,8 @@ static void covariance(const jcal_center_config_t *cfg, jcal_center_work_t *self
             from_prior += prior[k] * x[k] * y[k];
         }
         const size_t at = jcal_sym_at(i, j);
-        inverse->covariance[sensor][at] = (few * from_scatter) + from_prior;
-        inverse->least[sensor][at] = (excess * (x[(3u * sensor) + j] - from_prior)) + from_prior;
+        inverse->covariance[sensor][at] = (few * from_scatter) + (own * from_prior);
+        inverse->least[sensor][at] = (excess * (x[(3u * sensor) + j] - from_prior)) + (own * from_prior);
     }
 }
 
@@ -345,7 +346,7 @@ void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_
 void jcal_center_solve(const jcal_center_config_t *cfg, const jcal_center_work_t *self, float *d)
 {
     float prior[N];
-    jcal_center_prior(cfg, prior);
+    jcal_center_prior(&self->sums, cfg, prior);
     jcal_center_sums_gradient(&self->sums, prior, d);
     for (size_t i = 0u; i < N; ++i) {
         d[i] = -d[i];

@@ -135,15 +135,21 @@ float jcal_center_sums_take(jcal_center_sums_t *self, const jcal_center_config_t
     return square;
 }
 
-void jcal_center_prior(const jcal_center_config_t *cfg, float *prior)
+float jcal_center_excess(const jcal_center_sums_t *self)
+{
+    return jcal_max(self->cost / jcal_max(self->noise, FLT_MIN), 1.0f);
+}
+
+void jcal_center_prior(const jcal_center_sums_t *self, const jcal_center_config_t *cfg, float *prior)
 {
     const bool is_oriented = cfg->method == JCAL_CENTER_LS;
     const float bias = is_oriented ? NO_BIAS : jcal_max(cfg->acc_bias_m_s2, NO_BIAS);
+    const float excess = jcal_center_excess(self);
     for (size_t i = 0u; i < N; ++i) {
-        prior[i] = (i < 6u) ? (1.0f / (REACH_M * REACH_M)) : (1.0f / (bias * bias));
+        prior[i] = excess / ((i < 6u) ? (REACH_M * REACH_M) : (bias * bias));
     }
     if (is_oriented) {
-        prior[6] = 1.0f / (NO_HEADING_RAD * NO_HEADING_RAD);
+        prior[6] = excess / (NO_HEADING_RAD * NO_HEADING_RAD);
     }
 }
 

@@ -37,8 +37,12 @@ void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *
 /// ... and the time that passed with the sample.
 void jcal_center_sums_advance(jcal_center_sums_t *self, const jcal_kinematic_t *sample);
 
-/// The prior's information on each unknown (12), 1 / variance; in units of the sums. Of the heading nothing is known beforehand.
-void jcal_center_prior(const jcal_center_config_t *cfg, float *prior);
+/// Residuals, squared, over what the config calls usual; at least 1: readings that are so much worse count so much less.
+float jcal_center_excess(const jcal_center_sums_t *self);
+
+/// The prior's information on each unknown (12), 1 / variance, in units of the sums: times the excess, as the sums know nothing of it.
+/// Of the heading nothing is known beforehand.
+void jcal_center_prior(const jcal_center_sums_t *self, const jcal_center_config_t *cfg, float *prior);
 
 /// Half the gradient at the estimate, prior included (12).
 void jcal_center_sums_gradient(const jcal_center_sums_t *self, const float *prior, float *gradient);

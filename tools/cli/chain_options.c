@@ -10,6 +10,7 @@
 /* Keys of options without a short form. */
 enum {
     KEY_METHOD = 256,
+    KEY_SMOOTHING,
     KEY_THIGH_LENGTH,
     KEY_CALIBRATION,
     KEY_ENGINE,
@@ -23,6 +24,7 @@ enum {
 
 static const struct argp_option OPTIONS[] = {
     {"method", KEY_METHOD, "NAME", 0, "As for 'jointcal center': ss (default), sa, or ls, which needs orientations", 0},
+    {"smoothing", KEY_SMOOTHING, "S", 0, "As for 'jointcal center', 0 to 2 (default 0.24)", 0},
     {"thigh-length", KEY_THIGH_LENGTH, "M", 0, "Distance of hip and knee in metres, if it is known: 0.05 to 1", 0},
     {"calibration", KEY_CALIBRATION, "FILE", 0,
      "The knee is a hinge with these axes: output of 'jointcal hinge --json' for thigh and shank. Its centre is then the point of the "
@@ -57,6 +59,10 @@ static void settle(struct argp_state *state, const chain_options_t *options)
         argp_error(state, "--window: %g is not a number of seconds from 10 to 3600",
                    (double)options->config.center.memory_s);
     }
+    if (strcmp(field, "smoothing_s") == 0) {
+        argp_error(state, "--smoothing: %g is not a number of seconds from 0 to 2",
+                   (double)options->config.center.kinematics.smoothing_s);
+    }
     argp_error(state, "--max-bound: %g metres are outside what makes sense, 0.001 to 0.1 m",
                (double)options->config.center.max_bound_m);
 }
@@ -69,6 +75,9 @@ static error_t parse_values(int key, char *argument, struct argp_state *state)
     switch (key) {
     case KEY_METHOD:
         options->config.center.method = (jcal_center_method_t)option_one_of_three(state, "method", argument, methods);
+        return 0;
+    case KEY_SMOOTHING:
+        options->config.center.kinematics.smoothing_s = option_not_negative(state, "smoothing", argument);
         return 0;
     case KEY_THIGH_LENGTH:
         options->config.segment_length_m = option_positive(state, "thigh-length", argument);

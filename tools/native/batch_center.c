@@ -41,7 +41,7 @@ static jcal_quat_t quaternion_at(const float *v)
     return q;
 }
 
-static jcal_center_config_t config_of(const jcal_batch_center_options_t *options)
+jcal_center_config_t jcal_batch_center_config(const jcal_batch_center_options_t *options)
 {
     jcal_center_config_t config = jcal_center_config_default();
     config.method = (jcal_center_method_t)options->method;
@@ -109,7 +109,7 @@ static void write_row(const jcal_center_result_t *r, float *row)
 /* Storage of the window engine, or something to free. Null if the config is wrong. */
 static void *start(engine_t *engine, const jcal_batch_center_options_t *options)
 {
-    const jcal_center_window_config_t config = {config_of(options), (uint16_t)options->n_max};
+    const jcal_center_window_config_t config = {jcal_batch_center_config(options), (uint16_t)options->n_max};
     engine->is_window = options->n_max > 0;
     if (!engine->is_window) {
         return (jcal_center_init(&engine->stream, &config.center) == JCAL_OK) ? malloc(1) : NULL;

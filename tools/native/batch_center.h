@@ -34,6 +34,8 @@ typedef struct {
 } jcal_batch_center_input_t;
 
 JCAL_BATCH_EXPORT void jcal_batch_center_defaults(jcal_batch_center_options_t *options);
+/* The config that these options stand for. Not for Python. */
+jcal_center_config_t jcal_batch_center_config(const jcal_batch_center_options_t *options);
 /* A fresh engine over all samples; rows as above, rejected_by JCAL_REJECT_COUNT. JCAL_BATCH_DONE or what was wrong. */
 JCAL_BATCH_EXPORT int32_t jcal_batch_center_run(const jcal_batch_center_options_t *options,
                                                 const jcal_batch_center_input_t *in, float *rows,

@@ -186,7 +186,7 @@ def solve_lengths(s: Samples, *, absolute: bool = False, bias: float | None = No
 
     With `bias` (m/s^2) biases of that standard deviation are unknowns too, with `reach_m` r has a Gaussian prior, and with
     `noise` = (c, share) a residual's variance is c^2 + share^2 (|K1 r1|^2 + |K2 r2|^2), once per reading: 0.1 s, or half of what is
-    smoothed over.
+    smoothed over. Readings that are worse than that count so much less.
     """
     x = np.zeros(12)
     x[:6] = 0.0 if start is None else start
@@ -202,8 +202,9 @@ def solve_lengths(s: Samples, *, absolute: bool = False, bias: float | None = No
             usual = np.sqrt(noise[0] ** 2 + noise[1] ** 2 * turn2) if noise else np.full(len(s), tip)
             weight = weight * usual / np.maximum(np.abs(e), usual)
         j = slopes[:, :free]
-        step = -np.linalg.solve((j * weight[:, None]).T @ j + np.diag(prior[:free]),
-                                (j * weight[:, None]).T @ e + prior[:free] * x[:free])
+        readings = len(s) * dt / max(0.1, 0.5 * smoothing_s)
+        own = prior[:free] * (max(weight @ e**2 / readings, 1.0) if noise else 1.0)
+        step = -np.linalg.solve((j * weight[:, None]).T @ j + np.diag(own), (j * weight[:, None]).T @ e + own * x[:free])
         x[:free] += step
         if np.linalg.norm(step) < 1e-10:
             break
