@@ -43,6 +43,7 @@ MEASUREMENTS = {
     "angles": "joint angles of the rig beside the optical ones",
     "center": "joint centre: rig recordings, measured vectors, float64, parts, hinges",
     "center_sim": "joint centre, simulated: coverage, sharpness, what must never be ready, table I of OLS17",
+    "chain": "hip and knee: SAL15 simulated, ingredient by ingredient, a person's thigh",
     "cost": "time and memory, beside qmt",
 }
 MODULES = {"time": "time_to_ready"}  # where the name differs

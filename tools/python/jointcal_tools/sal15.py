@@ -19,6 +19,7 @@ from . import ols17
 
 PLACES, BIASES, HEADINGS = slice(0, 12), slice(12, 24), slice(24, 26)
 UNKNOWNS = 26
+READING_S = 0.12  # half of what is smoothed over
 
 
 @dataclass(frozen=True)
@@ -46,10 +47,10 @@ class ChainFit:
 
 @dataclass
 class Joint:
-    """Samples of one joint; with orientations (N, 3, 3) of both sensors to their earth frames."""
+    """Samples of one joint: for lengths, and in both sensors' earth frames for vectors."""
 
     samples: ols17.Samples
-    turns: tuple[np.ndarray, np.ndarray] | None = None
+    oriented: ols17.Samples | None = None
 
 
 def heading_matrix(delta: float) -> np.ndarray:
@@ -59,13 +60,12 @@ def heading_matrix(delta: float) -> np.ndarray:
 
 def vector_rows(joint: Joint, r1: np.ndarray, r2: np.ndarray, delta: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Residuals (3 N), slopes by r1, r2, delta (3 N, 7), and |K r|^2 of both (3 N)."""
-    s, (turn1, turn2) = joint.samples, joint.turns
+    s = joint.oriented
     swing1, swing2 = s.k1 @ r1, s.k2 @ r2
     z = heading_matrix(delta)
-    at1 = np.einsum("nij,nj->ni", turn1, s.a1 - swing1)
-    at2 = np.einsum("nij,nj->ni", turn2, s.a2 - swing2) @ z.T
+    at1, at2 = s.a1 - swing1, (s.a2 - swing2) @ z.T
     around = np.column_stack([at2[:, 1], -at2[:, 0], np.zeros(len(s))])
-    slopes = np.concatenate([-turn1 @ s.k1, z @ turn2 @ s.k2, around[:, :, None]], axis=2)
+    slopes = np.concatenate([-s.k1, z @ s.k2, around[:, :, None]], axis=2)
     return (at1 - at2).ravel(), slopes.reshape(-1, 7), np.repeat((swing1**2).sum(1) + (swing2**2).sum(1), 3)
 
 
@@ -81,11 +81,11 @@ def joint_system(joint: Joint, x: np.ndarray, first: int, use: Ingredients, nois
         e, slopes, turn2 = ols17.lengths(joint.samples, own)
         columns = np.concatenate([columns, columns + 12])
     dt = float(np.median(np.diff(joint.samples.t_s)))
-    weight = dt / 0.1 / (noise[0] ** 2 + noise[1] ** 2 * turn2)
+    weight = dt / READING_S / (noise[0] ** 2 + noise[1] ** 2 * turn2)
     matrix, gradient = np.zeros((UNKNOWNS, UNKNOWNS)), np.zeros(UNKNOWNS)
     matrix[np.ix_(columns, columns)] = (slopes * weight[:, None]).T @ slopes
     gradient[columns] = (slopes * weight[:, None]).T @ e
-    return matrix, gradient, weight @ e**2, len(e) * dt / 0.1
+    return matrix, gradient, weight @ e**2, len(e) * dt / READING_S
 
 
 def soft_rows(x: np.ndarray, use: Ingredients) -> list[tuple[np.ndarray, float, float]]:
@@ -116,9 +116,8 @@ def soft_rows(x: np.ndarray, use: Ingredients) -> list[tuple[np.ndarray, float, 
 
 def best_heading(joint: Joint, x: np.ndarray, first: int) -> float:
     """The heading offset by which the horizontal forces at the joint agree best."""
-    s, (turn1, turn2) = joint.samples, joint.turns
-    f1 = np.einsum("nij,nj->ni", turn1, s.a1 - s.k1 @ x[3 * first: 3 * first + 3])
-    f2 = np.einsum("nij,nj->ni", turn2, s.a2 - s.k2 @ x[3 * first + 3: 3 * first + 6])
+    s = joint.oriented
+    f1, f2 = s.a1 - s.k1 @ x[3 * first: 3 * first + 3], s.a2 - s.k2 @ x[3 * first + 3: 3 * first + 6]
     return float(np.arctan2((f2[:, 0] * f1[:, 1] - f2[:, 1] * f1[:, 0]).sum(), (f2[:, :2] * f1[:, :2]).sum()))
 
 

@@ -109,17 +109,18 @@ def agreement(report: Report, found: list[Whole]) -> None:
 
 def ingredients(report: Report, names: list[str]) -> None:
     """Plain SS in float64, one ingredient at a time."""
-    cases = [("symmetric quotient (8), gate 1.2 rad/s: as published", "symmetric", 1.2, {}),
-             ("symmetric quotient (8)", "symmetric", 0.0, {}),
-             ("five points", "five-point", 0.0, {}),
-             ("five points, both sides smoothed", "smoothed", 0.0, {}),
-             ("the same, bias states", "smoothed", 0.0, {"bias": 0.3}),
-             ("the same, weights by motion: the library's", "smoothed", 0.0, MODEL)]
+    cases = [("symmetric quotient (8), gate 1.2 rad/s: as published", "symmetric", 0.0, 1.2, {}),
+             ("symmetric quotient (8)", "symmetric", 0.0, 0.0, {}),
+             ("five points", "five-point", 0.0, 0.0, {}),
+             ("five points, smoothed over 0.24 s", "five-point", 0.24, 0.0, {}),
+             ("the same over 0.6 s", "five-point", 0.6, 0.0, {}),
+             ("0.24 s, bias states", "five-point", 0.24, 0.0, {"bias": 0.3}),
+             ("0.24 s, bias states, weights by motion: the library's", "five-point", 0.24, 0.0, MODEL)]
     rows = []
-    for label, kind, gate, settings in cases:
+    for label, kind, smoothing_s, gate, settings in cases:
         errors, rms = [], []
         for name in names:
-            s = ols17.prepare(recording(name), kind, gate)
+            s = ols17.prepare(recording(name), kind, smoothing_s, gate)
             fit = ols17.solve_lengths(s, **settings)
             errors.append(apart_mm(np.array([fit.r1, fit.r2]), measured(name)))
             rms.append(np.sqrt(np.mean(fit.residuals**2)))

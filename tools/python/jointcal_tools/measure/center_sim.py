@@ -208,7 +208,8 @@ def paper_run(job: tuple[int, float]) -> dict[str, np.ndarray]:
         a = np.einsum("nji,nj->ni", turn, down) + ols17.k_matrix(w, dw) @ r + gaussian(PAPER_NOISE[0])
         parts += [a, ols17.k_matrix(w + gaussian(PAPER_NOISE[1]), dw + gaussian(PAPER_NOISE[2]))]
         turns.append(rotations(turn_deg) @ turn)
-    s = ols17.Samples(np.arange(PAPER_N) * 0.02, *parts)
+    own = np.broadcast_to(np.eye(3), (PAPER_N, 3, 3))
+    s = ols17.Samples(np.arange(PAPER_N) * 0.02, *parts[:2], own, *parts[2:], own)
     ss, sa = ols17.solve_lengths(s), ols17.solve_lengths(s, absolute=True, tip=1e-4)
     ls = ols17.solve_vectors(s, np.swapaxes(turns[0], 1, 2) @ turns[1])
     found = {"LS": np.array(ls), "SS": np.array([ss.r1, ss.r2]), "SA": np.array([sa.r1, sa.r2])}
