@@ -113,47 +113,70 @@ static double total(const double *x)
     return sum;
 }
 
-static void the_form_is_the_sum_over_samples_with_its_derivatives(void)
+/* A copy of `anywhere`, one of its elements moved. */
+static void moved_place(unsigned i, double by, double *x)
 {
-    float moments[JCAL_SYM_SIZE(JCAL_CENTER_FEATURES)] = {0.0f};
+    memcpy(x, anywhere, sizeof anywhere);
+    x[i] += by;
+}
+
+/* Slope of one sample's squared form by an unknown. */
+static double slope_of_form(const jcal_kinematic_t *sample, unsigned i)
+{
+    const double h = 1e-4;
+    double up[12];
+    double down[12];
+    moved_place(i, h, up);
+    moved_place(i, -h, down);
+    return (squared_form(sample, up) - squared_form(sample, down)) / (2.0 * h);
+}
+
+static void sum_moments(float *moments)
+{
+    memset(moments, 0, JCAL_SYM_SIZE(JCAL_CENTER_FEATURES) * sizeof *moments);
     for (unsigned n = 0; n < SAMPLES; ++n) {
         float f[JCAL_CENTER_FEATURES];
         jcal_center_features(&samples[n], f);
         jcal_sym_rank1(moments, JCAL_CENTER_FEATURES, f, 1.0f);
     }
-    const jcal_center_point_t p = point_of(anywhere);
+}
+
+static void the_form_is_the_sum_over_samples_with_its_slope(void)
+{
+    float moments[JCAL_SYM_SIZE(JCAL_CENTER_FEATURES)];
     float gradient[6];
-    float matrix[21];
+    const jcal_center_point_t p = point_of(anywhere);
+    sum_moments(moments);
     const double cost = (double)jcal_center_form(moments, &p.place, gradient);
-    for (size_t row = 0u; row < 6u; ++row) {
-        jcal_center_form_row(moments, &p.place, row, matrix);
-    }
     TEST_ASSERT_TRUE(fabs(cost - total(anywhere)) < 1e-3 * total(anywhere));
     const double h = 1e-4;
     for (unsigned i = 0; i < 6u; ++i) {
         double up[12];
         double down[12];
-        memcpy(up, anywhere, sizeof up);
-        memcpy(down, anywhere, sizeof down);
-        up[i] += h;
-        down[i] -= h;
+        moved_place(i, h, up);
+        moved_place(i, -h, down);
         const double half_slope = (total(up) - total(down)) / (4.0 * h);
         TEST_ASSERT_TRUE(fabs((double)gradient[i] - half_slope) < 2e-3 * (fabs(half_slope) + 0.1 * cost));
+    }
+}
+
+static void the_forms_matrix_is_made_of_the_residuals_slopes(void)
+{
+    float moments[JCAL_SYM_SIZE(JCAL_CENTER_FEATURES)];
+    float matrix[21];
+    const jcal_center_point_t p = point_of(anywhere);
+    sum_moments(moments);
+    for (size_t row = 0u; row < 6u; ++row) {
+        jcal_center_form_row(moments, &p.place, row, matrix);
+    }
+    for (unsigned i = 0; i < 6u; ++i) {
         for (unsigned j = 0; j <= i; ++j) {
-            double product = 0.0; /* of the residuals' own slopes */
+            double product = 0.0;
             for (unsigned n = 0; n < SAMPLES; ++n) {
-                double right[12];
-                double left[12];
-                memcpy(right, anywhere, sizeof right);
-                memcpy(left, anywhere, sizeof left);
-                right[j] += h;
-                left[j] -= h;
-                product += (squared_form(&samples[n], up) - squared_form(&samples[n], down)) *
-                           (squared_form(&samples[n], right) - squared_form(&samples[n], left)) / (4.0 * h * h);
+                product += slope_of_form(&samples[n], i) * slope_of_form(&samples[n], j);
             }
-            const float got = matrix[jcal_sym_at(i, j)];
             const double scale = (double)(matrix[jcal_sym_at(i, i)] + matrix[jcal_sym_at(j, j)]);
-            TEST_ASSERT_TRUE(fabs((double)got - product) < 1e-3 * scale);
+            TEST_ASSERT_TRUE(fabs((double)matrix[jcal_sym_at(i, j)] - product) < 1e-3 * scale);
         }
     }
 }
@@ -271,15 +294,19 @@ static jcal_center_sums_t summed(const jcal_center_config_t *cfg, const jcal_cen
     return sums;
 }
 
-static void sums_are_weighted_sums_of_rows(void)
+/* The weight of a residual by the default config, in double. */
+static double weight_of(unsigned n, const jcal_center_residual_t *r)
+{
+    return (double)samples[n].dt_s / READING_S / (0.0025 + 1e-4 * (double)r->turn2);
+}
+
+static void sums_are_weighted_sums_of_squares(void)
 {
     const jcal_center_config_t cfg = jcal_center_config_default();
     const jcal_center_point_t p = point_of(anywhere);
     const jcal_center_sums_t sums = summed(&cfg, &p);
     double cost = 0.0;
     double apart = 0.0;
-    double gradient3 = 0.0;
-    double matrix37 = 0.0;
     double lagged = 0.0;
     double time_s = 0.0;
     double e[SAMPLES];
@@ -287,11 +314,9 @@ static void sums_are_weighted_sums_of_rows(void)
         jcal_center_residual_t r;
         TEST_ASSERT_TRUE(jcal_center_residual(&samples[n], &p, &r));
         e[n] = (double)r.e;
-        const double w = (double)samples[n].dt_s / READING_S / (0.0025 + 1e-4 * (double)r.turn2);
+        const double w = weight_of(n, &r);
         cost += w * e[n] * e[n];
         apart += w * (double)r.e_apart * (double)r.e_apart;
-        gradient3 += w * e[n] * (double)r.row[3];
-        matrix37 += w * (double)r.row[3] * (double)r.row[7];
         lagged += (n >= 4u) ? (w * e[n] * e[n - 4u]) : 0.0;
         time_s += (double)samples[n].dt_s;
     }
@@ -299,10 +324,25 @@ static void sums_are_weighted_sums_of_rows(void)
     TEST_ASSERT_TRUE(fabs((double)sums.raw - cost) < 1e-4 * cost);
     TEST_ASSERT_TRUE(fabs((double)sums.effect - apart) < 1e-4 * apart);
     TEST_ASSERT_TRUE(fabs((double)sums.lagged - lagged) < 1e-4 * cost);
-    TEST_ASSERT_TRUE(fabs((double)sums.gradient[3] - gradient3) < 1e-4 * fabs(gradient3));
-    TEST_ASSERT_TRUE(fabs((double)sums.matrix[jcal_sym_at(3, 7)] - matrix37) < 1e-3 * fabs(matrix37));
     TEST_ASSERT_TRUE(fabs((double)sums.noise - time_s / READING_S) < 1e-4 * time_s / READING_S);
     TEST_ASSERT_EQUAL_FLOAT(2.0f, sums.blocks); /* 60 samples of 20 ms */
+}
+
+static void sums_are_weighted_sums_of_rows(void)
+{
+    const jcal_center_config_t cfg = jcal_center_config_default();
+    const jcal_center_point_t p = point_of(anywhere);
+    const jcal_center_sums_t sums = summed(&cfg, &p);
+    double gradient3 = 0.0;
+    double matrix37 = 0.0;
+    for (unsigned n = 0; n < SAMPLES; ++n) {
+        jcal_center_residual_t r;
+        TEST_ASSERT_TRUE(jcal_center_residual(&samples[n], &p, &r));
+        gradient3 += weight_of(n, &r) * (double)r.e * (double)r.row[3];
+        matrix37 += weight_of(n, &r) * (double)r.row[3] * (double)r.row[7];
+    }
+    TEST_ASSERT_TRUE(fabs((double)sums.gradient[3] - gradient3) < 1e-4 * fabs(gradient3));
+    TEST_ASSERT_TRUE(fabs((double)sums.matrix[jcal_sym_at(3, 7)] - matrix37) < 1e-3 * fabs(matrix37));
 }
 
 static void absolute_differences_weigh_large_ones_less(void)
@@ -412,11 +452,13 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(features_times_monomials_are_the_squared_form);
-    RUN_TEST(the_form_is_the_sum_over_samples_with_its_derivatives);
+    RUN_TEST(the_form_is_the_sum_over_samples_with_its_slope);
+    RUN_TEST(the_forms_matrix_is_made_of_the_residuals_slopes);
     RUN_TEST(the_row_is_the_residuals_slope);
     RUN_TEST(a_row_with_orientations_is_the_residuals_slope);
     RUN_TEST(the_heading_is_that_by_which_both_forces_agree);
     RUN_TEST(free_fall_has_no_direction);
+    RUN_TEST(sums_are_weighted_sums_of_squares);
     RUN_TEST(sums_are_weighted_sums_of_rows);
     RUN_TEST(absolute_differences_weigh_large_ones_less);
     RUN_TEST(moving_the_estimate_is_summing_there);

@@ -156,7 +156,7 @@ static void k_is_what_cross_products_say(void)
     for (int k = -3; k <= 2; ++k) {
         jcal_pair_t pair;
         memset(&pair, 0, sizeof pair);
-        pair.t_us = (uint64_t)(1000000 + (k * 20000));
+        pair.t_us = UINT64_C(1000000) + ((uint64_t)(k + 3) * 20000u) - 60000u;
         pair.imu2.gyr_rad_s = jcal_vec3_add(w, jcal_vec3_scale(dw, 0.02f * (float)k));
         pair.imu2.acc_m_s2 = jcal_vec3(0.0f, 0.0f, (float)k);
         TEST_ASSERT_EQUAL_INT(k == 2, jcal_kinematics_put(&chain, &FIVE_POINT, &pair, NULL, &s));
