@@ -217,7 +217,7 @@ def center_header() -> str:
     point = np.round(np.random.default_rng(SEED + 1).uniform(-0.3, 0.3, 12), 2)
     model = {"bias": 0.3, "reach_m": 0.3, "noise": (0.05, 0.01)}
     bodies = []
-    for kind, smoothing_s in (("five-point", 0.24), ("five-point", 0.0), ("symmetric", 0.0)):
+    for kind, smoothing_s in (("five-point", 0.12), ("five-point", 0.0), ("symmetric", 0.0)):
         s = ols17.prepare(rec, kind, smoothing_s)
         bodies.append(np.hstack([s.a1, s.k1.reshape(-1, 9), s.a2, s.k2.reshape(-1, 9)])[:CENTER_SHOWN])
     plain = ols17.prepare(rec)
@@ -226,7 +226,7 @@ def center_header() -> str:
     tables = [
         table("golden_samples", "gyr1, rad/s, acc1, m/s^2, gyr2, acc2.", np.hstack([rec.gyr1, rec.acc1, rec.gyr2, rec.acc2]), "float"),
         table("golden_point", "r1, r2, m, and biases, m/s^2, of the rows.", point[None], "float"),
-        table("golden_smoothed", f"First bodies, five points, smoothed over 0.24 s: {shape}.", bodies[0]),
+        table("golden_smoothed", f"First bodies, five points, smoothed over 0.12 s: {shape}.", bodies[0]),
         table("golden_five_point", f"First bodies, five points: {shape}.", bodies[1]),
         table("golden_symmetric", f"First bodies, (8): {shape}.", bodies[2]),
         table("golden_rows", "Of the unsmoothed bodies, five points, at the point: (16), its slopes by r1, r2, b1, b2, |K1 r1|^2 + |K2 r2|^2.",

@@ -12,7 +12,7 @@
 #include <unity.h>
 
 #define SAMPLES 60u
-#define READING_S 0.12 /* half of what the default config smooths over */
+#define READING_S 0.1
 
 static jcal_kinematic_t samples[SAMPLES];
 static const double anywhere[12] = {-0.1, 0.04, 0.03, 0.05, 0.12, -0.06, 0.1, -0.2, 0.15, -0.05, 0.12, 0.3};

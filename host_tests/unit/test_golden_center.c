@@ -62,7 +62,7 @@ static void assert_body(const double *expected, const jcal_body_t *body, double 
 static void bodies_are_those_of_the_reference(void)
 {
     static const jcal_kinematics_config_t settings[3] = {
-        {JCAL_DERIVATIVE_FIVE_POINT, 0.24f}, {JCAL_DERIVATIVE_FIVE_POINT, 0.0f}, {JCAL_DERIVATIVE_SYMMETRIC, 0.0f}};
+        {JCAL_DERIVATIVE_FIVE_POINT, 0.12f}, {JCAL_DERIVATIVE_FIVE_POINT, 0.0f}, {JCAL_DERIVATIVE_SYMMETRIC, 0.0f}};
     for (int d = 0; d < 3; ++d) {
         const double(*const golden)[24] =
             (d == 0) ? golden_smoothed : ((d == 1) ? golden_five_point : golden_symmetric);

@@ -20,7 +20,7 @@ typedef enum {
 typedef struct {
     jcal_derivative_t derivative;  ///< Default JCAL_DERIVATIVE_FIVE_POINT.
     /// Everything that the equation compares is smoothed over this time, s, both sides alike and in frames that do not turn: the joint
-    /// is the same, but what skin, straps and noise add is mostly faster than limbs are. Range [0, 2], default 0.24; 0: nothing is.
+    /// is the same, but what skin, straps and noise add is mostly faster than limbs are. Range [0, 2], default 0.12; 0: nothing is.
     float smoothing_s;
 } jcal_kinematics_config_t;
 

@@ -53,7 +53,7 @@ jcal_center_config_t jcal_center_config_default(void)
     const jcal_center_config_t config = {
         .gate = jcal_gate_config_default(),
         .method = JCAL_CENTER_SS,
-        .kinematics = {.derivative = JCAL_DERIVATIVE_FIVE_POINT, .smoothing_s = 0.24f},
+        .kinematics = {.derivative = JCAL_DERIVATIVE_FIVE_POINT, .smoothing_s = 0.12f},
         .max_bound_m = 0.01f,
         .mismatch_m = 0.002f,
         .acc_noise_m_s2 = 0.05f,

@@ -24,7 +24,7 @@
 #define HIDDEN_SHARE 0.5f
 /// With more smoothing than this, s, samples that share no reading are so far apart that what lasts between them says little: all of
 /// what remains may last then, and in proportion, as smoothing takes more of what remains than of the shift.
-#define HIDDEN_S 0.25f
+#define HIDDEN_S 0.125f
 
 /// Blocks from which the scatter says something, and what is taken from their number.
 #define BLOCKS_MIN 8.0f

@@ -37,7 +37,7 @@ static const struct argp_option OPTIONS[] = {
      "How angular accelerations are made: five-point (default), or symmetric as published by Olsson and Halvorsen 2017",
      0},
     {"smoothing", KEY_SMOOTHING, "S", 0,
-     "Smooth both sides of the equation over S seconds, 0 to 2 (default 0.24): what skin and straps add is mostly faster than limbs are",
+     "Smooth both sides of the equation over S seconds, 0 to 2 (default 0.12): what skin and straps add is mostly faster than limbs are",
      0},
     {"min-rate", KEY_MIN_RATE, "RAD_S", 0,
      "Leave out samples in which both sensors turn slower than this; 1.2 as published (default 0: rest tells of biases)",

@@ -24,7 +24,7 @@ enum {
 
 static const struct argp_option OPTIONS[] = {
     {"method", KEY_METHOD, "NAME", 0, "As for 'jointcal center': ss (default), sa, or ls, which needs orientations", 0},
-    {"smoothing", KEY_SMOOTHING, "S", 0, "As for 'jointcal center', 0 to 2 (default 0.24)", 0},
+    {"smoothing", KEY_SMOOTHING, "S", 0, "As for 'jointcal center', 0 to 2 (default 0.12)", 0},
     {"thigh-length", KEY_THIGH_LENGTH, "M", 0, "Distance of hip and knee in metres, if it is known: 0.05 to 1", 0},
     {"calibration", KEY_CALIBRATION, "FILE", 0,
      "The knee is a hinge with these axes: output of 'jointcal hinge --json' for thigh and shank. Its centre is then the point of the "

@@ -118,7 +118,7 @@ def blocks(values: np.ndarray, part: np.ndarray, per_block: int) -> np.ndarray:
     return np.array(found)
 
 
-def prepare(rec: Recording, kind: str = "five-point", smoothing_s: float = 0.24, min_rate_rad_s: float = 0.0,
+def prepare(rec: Recording, kind: str = "five-point", smoothing_s: float = 0.12, min_rate_rad_s: float = 0.0,
             orientations: tuple[np.ndarray, np.ndarray] | None = None) -> Samples:
     """Samples of a recording of about 50 rows a second; rows whose derivative would need one that is not there are left out.
 
@@ -180,7 +180,7 @@ def lengths(s: Samples, x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarr
 
 
 def solve_lengths(s: Samples, *, absolute: bool = False, bias: float | None = None, reach_m: float | None = None,
-                  noise: tuple[float, float] | None = None, smoothing_s: float = 0.24, start: np.ndarray | None = None,
+                  noise: tuple[float, float] | None = None, smoothing_s: float = 0.12, start: np.ndarray | None = None,
                   tip: float = 1e-6) -> Fit:
     """SS (15), (17) to (19), or SA (20) by iterated weights 1 / max(|e|, tip).
 

@@ -19,7 +19,7 @@ from . import ols17
 
 PLACES, BIASES, HEADINGS = slice(0, 12), slice(12, 24), slice(24, 26)
 UNKNOWNS = 26
-READING_S = 0.12  # half of what is smoothed over
+READING_S = 0.1
 
 
 @dataclass(frozen=True)

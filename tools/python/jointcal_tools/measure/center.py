@@ -112,10 +112,10 @@ def ingredients(report: Report, names: list[str]) -> None:
     cases = [("symmetric quotient (8), gate 1.2 rad/s: as published", "symmetric", 0.0, 1.2, {}),
              ("symmetric quotient (8)", "symmetric", 0.0, 0.0, {}),
              ("five points", "five-point", 0.0, 0.0, {}),
-             ("five points, smoothed over 0.24 s", "five-point", 0.24, 0.0, {}),
-             ("the same over 0.6 s", "five-point", 0.6, 0.0, {}),
-             ("0.24 s, bias states", "five-point", 0.24, 0.0, {"bias": 0.3}),
-             ("0.24 s, bias states, weights by motion: the library's", "five-point", 0.24, 0.0, MODEL)]
+             ("five points, smoothed over 0.12 s", "five-point", 0.12, 0.0, {}),
+             ("the same over 0.4 s", "five-point", 0.4, 0.0, {}),
+             ("0.12 s, bias states", "five-point", 0.12, 0.0, {"bias": 0.3}),
+             ("0.12 s, bias states, weights by motion: the library's", "five-point", 0.12, 0.0, MODEL)]
     rows = []
     for label, kind, smoothing_s, gate, settings in cases:
         errors, rms = [], []

@@ -78,7 +78,7 @@ def ingredient_run(job: tuple[int, int, str]) -> dict[str, np.ndarray]:
     kind, index, case = job
     rec = simulate_chain(ChainSpec(type=kind, seed=1000 + index, **CASES[case]))
     out = {}
-    for smoothing_s, label in ((0.0, "as published: (4), no smoothing"), (0.24, "")):
+    for smoothing_s, label in ((0.0, "as published: (4), no smoothing"), (0.12, "")):
         hip, knee = joints_of(rec, smoothing_s)
         for name, use in ingredients_of(rec).items():
             if label and name != "lengths (4), joints apart":
