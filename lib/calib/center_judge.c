@@ -21,7 +21,7 @@
 #define NORMAL_95 1.96f
 
 /// The share of what remains unexplained and lasts that may have shifted the estimate.
-#define HIDDEN_SHARE 0.5f
+#define HIDDEN_SHARE 0.65f
 /// With more smoothing than this, s, samples that share no reading are so far apart that what lasts between them says little: all of
 /// what remains may last then, and in proportion, as smoothing takes more of what remains than of the shift.
 #define HIDDEN_S 0.125f
