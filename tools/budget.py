@@ -22,8 +22,8 @@ BUDGETS = target.PORT / "budgets.json"
 PAGE = target.ROOT / "docs/measurements/budget.md"
 M4F = target.PLATFORMS["m4f"]
 ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
-TWO_DOF, CENTER = "two_dof_stream", "center_stream"
-DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER"}
+TWO_DOF, CENTER, CHAIN = "two_dof_stream", "center_stream", "chain"
+DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN"}
 INSTANCES, RATE_HZ = 16, 100
 SLICES_PER_S, TABLED_HZ = (200, 100, 50, 25), (50, 100)
 LISTED = 8
@@ -124,6 +124,16 @@ def center(stack: dict[str, int]) -> dict:
     return found
 
 
+def chain(stack: dict[str, int]) -> dict:
+    """Hip and knee at 100 Hz: jcal_chain_push and jcal_chain_step together."""
+    recording = target.recordings(["human_leg_left"], "chain_demo")[0]
+    counts, _, printed = counts_of(target.build_plugin(), CHAIN, target.triples_file(recording, RATE_HZ), ("REPLAY_STACK",))
+    return {f"{CHAIN}_push_instructions_max": max(counts["update"]),
+            f"{CHAIN}_push_instructions_mean": round(statistics.mean(counts["update"])), f"{CHAIN}_state_bytes": printed["state"],
+            f"{CHAIN}_stack_painted_bytes": printed["stack"],
+            f"{CHAIN}_stack_call_graph_bytes": max(stack.get(f"jcal_chain_{name}", 0) for name in ("push", "step", "get"))}
+
+
 def fewer_slices(recording: Path) -> dict:
     """Instructions of an update by slices_per_s and rate, on the first minute of the recording at that rate."""
     plugin, found = target.build_plugin(), {}
@@ -178,7 +188,7 @@ def measure(samples: Path, recording: Path) -> tuple[dict, dict]:
         numbers[f"hinge_{engine}_state_bytes"] = of["state"]
         numbers[f"hinge_{engine}_stack_painted_bytes"] = of["stack"]
         numbers[f"hinge_{engine}_stack_call_graph_bytes"] = stack.get(f"jcal_{prefix}_update", 0)
-    numbers |= two_dof(stack) | center(stack)
+    numbers |= two_dof(stack) | center(stack) | chain(stack)
     numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
     numbers |= sixteen(recording)
     numbers["hub_flash_bytes"] = linked_bytes("hub") - linked_bytes("hub_empty", ("HUB_EMPTY",))

@@ -10,10 +10,14 @@
 
 #ifdef JCAL_TEST_SHORT
 #define SEEDS 2
+#define NEVER_SEEDS 1
 #define NEVER_S 12.0
+#define HINGE_S 30.0
 #else
 #define SEEDS 12
+#define NEVER_SEEDS 4
 #define NEVER_S 60.0
+#define HINGE_S 60.0
 #endif
 
 static jcal_center_t engine;
@@ -216,27 +220,27 @@ static void exchanged_sensors_give_the_exchanged_result(void)
 }
 
 /* Runs a motion; never ready. The last result. */
-static jcal_center_result_t never(const center_motion_t *m)
+static jcal_center_result_t never(const center_motion_t *m, double duration_s)
 {
     setUp();
-    TEST_ASSERT_TRUE(run_until_ready(&engine, m, 0.0, NEVER_S) < 0.0);
+    TEST_ASSERT_TRUE(run_until_ready(&engine, m, 0.0, duration_s) < 0.0);
     return result_of(&engine);
 }
 
 static void motion_that_leaves_something_open_is_never_ready(void)
 {
-    for (int seed = 0; seed < 4; ++seed) {
+    for (int seed = 0; seed < NEVER_SEEDS; ++seed) {
         center_motion_t m = center_lively(seed);
         m.dof = CENTER_STIFF;
-        (void)never(&m);
+        (void)never(&m, NEVER_S);
         m = center_lively(seed);
         m.base = 0.0;
         m.carried = 0.0;
-        jcal_center_result_t r = never(&m);
+        jcal_center_result_t r = never(&m, NEVER_S);
         TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_MOTION, r.reason);
         TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_SEGMENT1, r.hint);
         m.joint = 0.0;
-        r = never(&m);
+        r = never(&m, NEVER_S);
         TEST_ASSERT_FALSE(r.has_center);
         TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.reason);
         TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, r.uncertainty1_m);
@@ -245,10 +249,10 @@ static void motion_that_leaves_something_open_is_never_ready(void)
 
 static void along_a_hinge_nothing_is_known(void)
 {
-    for (int seed = 0; seed < 4; ++seed) {
+    for (int seed = 0; seed < NEVER_SEEDS; ++seed) {
         center_motion_t m = center_lively(seed);
         m.dof = CENTER_HINGE;
-        const jcal_center_result_t r = never(&m);
+        const jcal_center_result_t r = never(&m, HINGE_S);
         TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, r.reason);
         TEST_ASSERT_EQUAL_INT(JCAL_HINT_MORE_DIRECTIONS, r.hint);
         TEST_ASSERT_TRUE(r.uncertainty_weakest1_m > 0.1f);
@@ -396,7 +400,7 @@ static void shifting_all_times_changes_no_bit(void)
     }
     jcal_center_result_t a = result_of(&engine);
     jcal_center_result_t b = result_of(&later);
-    TEST_ASSERT_EQUAL_UINT64(a.t_us + UINT64_C(0x123456789ABCDEF), b.t_us);
+    TEST_ASSERT_TRUE(a.t_us + UINT64_C(0x123456789ABCDEF) == b.t_us);
     a.t_us = 0u;
     b.t_us = 0u;
     TEST_ASSERT_EQUAL_MEMORY(&a, &b, sizeof a);

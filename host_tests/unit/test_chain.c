@@ -142,6 +142,25 @@ static void a_known_length_is_kept(void)
     TEST_ASSERT_TRUE(r.uncertainty_segment_m < free_m);
 }
 
+static void a_length_that_contradicts_the_data_is_left_out_and_never_ready(void)
+{
+    const chain_motion_t m = chain_lively(3);
+    const double length = sqrt(m.thigh[0] * m.thigh[0] + m.thigh[1] * m.thigh[1] + m.thigh[2] * m.thigh[2]);
+    config.segment_length_m = (float)length - 0.08f;
+    begin();
+    for (int k = 0; k < 60; ++k) {
+        run(&m, 0.5 * k, 0.5 * (k + 1));
+        TEST_ASSERT_TRUE(result().status != JCAL_READY);
+    }
+    const jcal_chain_result_t r = result();
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_DOES_NOT_FIT, r.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.hint);
+    TEST_ASSERT_TRUE(fabs((double)r.segment_length_m - length) < (double)r.uncertainty_segment_m);
+    for (int i = 0; i < JCAL_CHAIN_PLACES; ++i) {
+        TEST_ASSERT_TRUE(error_of(&m, &r, i) < (double)r.uncertainty_m[i]);
+    }
+}
+
 static void the_thighs_accelerometer_has_one_bias(void)
 {
     chain_motion_t m = chain_lively(0);
@@ -150,7 +169,7 @@ static void the_thighs_accelerometer_has_one_bias(void)
     assert_inside(&m);
     jcal_chain_state_t state;
     TEST_ASSERT_TRUE(jcal_chain_collect(&engine, &state));
-    jcal_chain_tie(&config, &state);
+    TEST_ASSERT_TRUE(jcal_chain_tie(&config, &state));
     for (size_t i = 0u; i < 3u; ++i) {
         TEST_ASSERT_FLOAT_WITHIN(0.02f, state.x[JCAL_CHAIN_AT_KNEE_BIAS + i], state.x[JCAL_CHAIN_AT_HIP_BIAS + i]);
     }
@@ -164,7 +183,9 @@ static void an_observation_moves_what_is_known_worse(void)
     state.covariance[jcal_sym_at(0u, 0u)] = 4.0f;
     state.covariance[jcal_sym_at(1u, 1u)] = 1.0f;
     float slope[JCAL_CHAIN_STATES] = {1.0f, -1.0f};
-    jcal_chain_observe(&state, slope, 3.0f, 2.0f);
+    TEST_ASSERT_FALSE(jcal_chain_observe(&state, slope, 9.1f, 2.0f)); /* three standard deviations are 9 */
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, state.x[0]);
+    TEST_ASSERT_TRUE(jcal_chain_observe(&state, slope, 3.0f, 2.0f));
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 12.0f / 9.0f, state.x[0]);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, -3.0f / 9.0f, state.x[1]);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 4.0f - 16.0f / 9.0f, state.covariance[jcal_sym_at(0u, 0u)]);
@@ -184,7 +205,7 @@ static void the_plane_pulls_both_centres_towards_it(void)
     config.plane_normal = jcal_vec3(0.0f, 0.0f, 1.0f);
     config.plane_tolerance_m = 1e-4f;
     config.center.acc_bias_m_s2 = 0.0f;
-    jcal_chain_tie(&config, &state);
+    TEST_ASSERT_TRUE(jcal_chain_tie(&config, &state));
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.01f, state.x[JCAL_CHAIN_AT_HIP_THIGH + 2u]);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.01f, state.x[JCAL_CHAIN_AT_KNEE_THIGH + 2u]);
     TEST_ASSERT_EQUAL_FLOAT(-0.4f, state.x[JCAL_CHAIN_AT_KNEE_THIGH + 1u]);
@@ -307,6 +328,7 @@ int main(void)
     RUN_TEST(orientations_with_headings_of_their_own_do_as_well);
     RUN_TEST(a_hinge_for_a_knee_needs_its_axis);
     RUN_TEST(a_known_length_is_kept);
+    RUN_TEST(a_length_that_contradicts_the_data_is_left_out_and_never_ready);
     RUN_TEST(the_thighs_accelerometer_has_one_bias);
     RUN_TEST(an_observation_moves_what_is_known_worse);
     RUN_TEST(the_plane_pulls_both_centres_towards_it);

@@ -99,7 +99,7 @@ jcal_status_t jcal_chain_step(jcal_chain_t *self);
 
 /// Ties both joints together and says what is known. Errors: JCAL_ERR_ARG.
 ///
-/// Cost:     about 4000 multiply-adds; stack about 1.3 KiB.
+/// Cost:     about 4000 multiply-adds; stack about 1.4 KiB.
 jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out);
 
 /// Forgets all data, keeps the config. Errors: JCAL_ERR_ARG.

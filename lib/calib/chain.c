@@ -176,15 +176,15 @@ static float segment_deviation(const jcal_chain_state_t *state, jcal_vec3_t dire
     return sqrtf(jcal_max(variance, 0.0f));
 }
 
-/// Places and bounds after all ties.
-static void tell_tied(const jcal_chain_t *self, jcal_chain_state_t *state, jcal_chain_result_t *out)
+/// Places and bounds after all ties. False if a tie contradicts what the joints found.
+static bool tell_tied(const jcal_chain_t *self, jcal_chain_state_t *state, jcal_chain_result_t *out)
 {
     static const size_t first[JCAL_CHAIN_PLACES] = {JCAL_CHAIN_AT_HIP, JCAL_CHAIN_AT_HIP_THIGH,
                                                     JCAL_CHAIN_AT_KNEE_THIGH, JCAL_CHAIN_AT_KNEE_SHANK};
     const float mismatch_m = self->cfg.center.mismatch_m;
     const jcal_vec3_t none = {0.0f, 0.0f, 0.0f};
     const jcal_vec3_t axes[JCAL_CHAIN_PLACES] = {none, none, self->cfg.knee_axis2, self->cfg.knee_axis3};
-    jcal_chain_tie(&self->cfg, state);
+    const bool fits = jcal_chain_tie(&self->cfg, state);
     for (size_t i = 0u; i < JCAL_CHAIN_PLACES; ++i) {
         const float *const x = &state->x[first[i]];
         float c[6];
@@ -192,19 +192,31 @@ static void tell_tied(const jcal_chain_t *self, jcal_chain_state_t *state, jcal_
         out->place_m[i] = jcal_vec3(x[0], x[1], x[2]);
         out->uncertainty_m[i] = mismatch_m + jcal_center_radius_across(c, axes[i]);
     }
+    return fits;
 }
 
-/// Places and bounds of both joints, each by itself.
-static void tell_apart(const jcal_center_result_t *hip, const jcal_center_result_t *knee, jcal_chain_result_t *out)
+/// What the chain takes from a joint's result besides places and bounds.
+typedef struct {
+    jcal_calibration_t status;
+    jcal_hint_t hint;
+    jcal_reason_t reason;
+    bool has_center;
+    uint64_t t_us;
+} joint_news_t;
+
+/// Places and bounds of a joint by itself; `first` is that of its two places.
+static joint_news_t tell_apart(const jcal_center_t *joint, jcal_chain_place_t first, jcal_chain_result_t *out)
 {
-    out->place_m[JCAL_CHAIN_HIP_TO_PELVIS] = hip->joint_to_sensor1_m;
-    out->place_m[JCAL_CHAIN_HIP_TO_THIGH] = hip->joint_to_sensor2_m;
-    out->place_m[JCAL_CHAIN_KNEE_TO_THIGH] = knee->joint_to_sensor1_m;
-    out->place_m[JCAL_CHAIN_KNEE_TO_SHANK] = knee->joint_to_sensor2_m;
-    out->uncertainty_m[JCAL_CHAIN_HIP_TO_PELVIS] = hip->uncertainty1_m;
-    out->uncertainty_m[JCAL_CHAIN_HIP_TO_THIGH] = hip->uncertainty2_m;
-    out->uncertainty_m[JCAL_CHAIN_KNEE_TO_THIGH] = knee->uncertainty1_m;
-    out->uncertainty_m[JCAL_CHAIN_KNEE_TO_SHANK] = knee->uncertainty2_m;
+    jcal_center_result_t r;
+    (void)jcal_center_get(joint, &r);
+    const size_t at = (size_t)first;
+    out->place_m[at] = r.joint_to_sensor1_m;
+    out->place_m[at + 1u] = r.joint_to_sensor2_m;
+    out->uncertainty_m[at] = r.uncertainty1_m;
+    out->uncertainty_m[at + 1u] = r.uncertainty2_m;
+    out->joint_status[at / 2u] = r.status;
+    const joint_news_t news = {r.status, r.hint, r.reason, r.has_center, r.t_us};
+    return news;
 }
 
 /// The knee's centre on a hinge's axis: next to both sensors, (11) and (12) of [SAL15].
@@ -218,29 +230,31 @@ static void shift_knee(const jcal_chain_config_t *cfg, jcal_chain_result_t *out)
 }
 
 /// Whether a joint lacks nothing but smaller bounds.
-static bool is_sound(const jcal_center_result_t *joint)
+static bool is_sound(const joint_news_t *joint)
 {
     return (joint->status == JCAL_READY) ||
            ((joint->status == JCAL_COLLECTING) && (joint->reason == JCAL_REASON_UNCERTAIN));
 }
 
-static void tell_status(const jcal_chain_t *self, const jcal_center_result_t *hip, const jcal_center_result_t *knee,
+/// Status by the bounds; `fits` if no tie contradicts.
+static void tell_status(const jcal_chain_t *self, const joint_news_t *hip, const joint_news_t *knee, bool fits,
                         jcal_chain_result_t *out)
 {
     float worst[2];
     for (size_t i = 0u; i < 2u; ++i) {
         worst[i] = jcal_max(out->uncertainty_m[2u * i], out->uncertainty_m[(2u * i) + 1u]);
-        out->joint_status[i] = (i == 0u) ? hip->status : knee->status;
     }
     const float limit = self->cfg.center.max_bound_m;
     const bool hip_known = is_sound(hip) && ((worst[0] <= limit) || (hip->status == JCAL_READY));
     const bool knee_known = is_sound(knee) && ((worst[1] <= limit) || (knee->status == JCAL_READY));
     if (hip_known && knee_known) {
-        out->status = JCAL_READY;
+        out->status = fits ? JCAL_READY : JCAL_COLLECTING;
+        out->reason = fits ? JCAL_REASON_NONE : JCAL_REASON_DOES_NOT_FIT;
+        out->hint = fits ? JCAL_HINT_NONE : JCAL_HINT_CHECK_SENSORS;
         return;
     }
     const bool hip_first = !hip_known && (knee_known || (worst[0] >= worst[1]));
-    const jcal_center_result_t *const weaker = hip_first ? hip : knee;
+    const joint_news_t *const weaker = hip_first ? hip : knee;
     out->status = ((hip->status == JCAL_MOVED) || (knee->status == JCAL_MOVED)) ? JCAL_MOVED : JCAL_COLLECTING;
     out->weak = hip_first ? JCAL_WEAK_CENTER1 : JCAL_WEAK_CENTER2;
     out->hint = weaker->hint;
@@ -252,19 +266,14 @@ jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out)
     if ((self == NULL) || (out == NULL)) {
         return JCAL_ERR_ARG;
     }
-    jcal_center_result_t hip;
-    jcal_center_result_t knee;
     jcal_chain_state_t state;
-    (void)jcal_center_get(&self->hip, &hip);
-    (void)jcal_center_get(&self->knee, &knee);
     (void)memset(out, 0, sizeof *out);
-    tell_apart(&hip, &knee, out);
+    const joint_news_t hip = tell_apart(&self->hip, JCAL_CHAIN_HIP_TO_PELVIS, out);
+    const joint_news_t knee = tell_apart(&self->knee, JCAL_CHAIN_KNEE_TO_THIGH, out);
     out->uncertainty_segment_m = JCAL_BOUND_UNKNOWN_M;
     out->has_places = hip.has_center && knee.has_center;
     const bool tied = out->has_places && jcal_chain_collect(self, &state);
-    if (tied) {
-        tell_tied(self, &state, out);
-    }
+    const bool fits = !tied || tell_tied(self, &state, out);
     shift_knee(&self->cfg, out);
     const jcal_vec3_t segment =
         jcal_vec3_sub(out->place_m[JCAL_CHAIN_HIP_TO_THIGH], out->place_m[JCAL_CHAIN_KNEE_TO_THIGH]);
@@ -274,7 +283,7 @@ jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out)
         out->uncertainty_segment_m =
             (2.0f * self->cfg.center.mismatch_m) + (NORMAL_95 * segment_deviation(&state, direction));
     }
-    tell_status(self, &hip, &knee, out);
+    tell_status(self, &hip, &knee, fits, out);
     out->t_us = (hip.t_us > knee.t_us) ? hip.t_us : knee.t_us;
     out->samples = self->samples;
     for (size_t i = 0u; i < (size_t)JCAL_REJECT_COUNT; ++i) {

@@ -20,8 +20,9 @@
 #define BOUND_MAX_M 1.0f
 /// Both joints see the same accelerometer: standard deviation of the difference of its biases, m/s^2.
 #define SAME_BIAS 0.01f
-/// Directions are those of an estimate that moves: how often the distance is linearised.
-#define LENGTH_ROUNDS 2u
+/// A tie that is further away than so many standard deviations contradicts what both joints found. Those are wide: they are scaled to
+/// the bounds, which the joints' errors fill by a third.
+#define CONTRADICTION 3.0f
 
 /// The 9 unknowns of a joint that count here, by their numbers in its sums: r1, r2 and the bias of the thigh's accelerometer.
 static void unknowns_of(bool is_hip, size_t *which)
@@ -104,19 +105,26 @@ bool jcal_chain_collect(const jcal_chain_t *self, jcal_chain_state_t *state)
     return true;
 }
 
-void jcal_chain_observe(jcal_chain_state_t *state, const float *slope, float apart, float deviation)
+/// on <- C slope. What the state moves by is on * (what is returned) * apart; 0 if `apart` is more than what is known leaves room for.
+static float weigh(const jcal_chain_state_t *state, const float *slope, float apart, float deviation, float *on)
 {
-    float on[N]; /* C h */
     jcal_sym_times(state->covariance, N, slope, on);
     float variance = deviation * deviation;
     for (size_t i = 0u; i < N; ++i) {
         variance += slope[i] * on[i];
     }
-    const float gain = 1.0f / variance;
+    return ((apart * apart) <= (CONTRADICTION * CONTRADICTION * variance)) ? (1.0f / variance) : 0.0f;
+}
+
+bool jcal_chain_observe(jcal_chain_state_t *state, const float *slope, float apart, float deviation)
+{
+    float on[N];
+    const float gain = weigh(state, slope, apart, deviation, on);
     for (size_t i = 0u; i < N; ++i) {
         state->x[i] += on[i] * gain * apart;
     }
     jcal_sym_rank1(state->covariance, N, on, -gain);
+    return gain > 0.0f;
 }
 
 /// slope <- v at the thigh as the hip sees it, -v as the knee does.
@@ -141,39 +149,46 @@ static jcal_vec3_t segment_of(const jcal_chain_state_t *state)
     return jcal_vec3_sub(vector_at(state, JCAL_CHAIN_AT_HIP_THIGH), vector_at(state, JCAL_CHAIN_AT_KNEE_THIGH));
 }
 
-static void tie_length(const jcal_chain_config_t *cfg, jcal_chain_state_t *state)
+/// The distance of both centres is linearised where it is after a first, tentative update.
+static bool tie_length(const jcal_chain_config_t *cfg, jcal_chain_state_t *state, float *slope)
 {
-    const jcal_chain_state_t before = *state;
-    jcal_vec3_t along = segment_of(&before);
-    for (unsigned round = 0u; round < LENGTH_ROUNDS; ++round) {
-        float slope[N];
-        const float length = jcal_max(jcal_vec3_norm(along), FLT_MIN);
-        const jcal_vec3_t direction = jcal_vec3_scale(along, 1.0f / length);
-        slope_between(direction, slope);
-        const float projected = jcal_vec3_dot(direction, segment_of(&before));
-        *state = before;
-        jcal_chain_observe(state, slope, cfg->segment_length_m - projected, cfg->segment_tolerance_m);
-        along = segment_of(state);
+    float on[N];
+    const jcal_vec3_t segment = segment_of(state);
+    const float length = jcal_max(jcal_vec3_norm(segment), FLT_MIN);
+    slope_between(jcal_vec3_scale(segment, 1.0f / length), slope);
+    const float apart = cfg->segment_length_m - length;
+    const float move = apart * weigh(state, slope, apart, cfg->segment_tolerance_m, on);
+    float moved[3];
+    for (size_t i = 0u; i < 3u; ++i) {
+        moved[i] = move * (on[JCAL_CHAIN_AT_HIP_THIGH + i] - on[JCAL_CHAIN_AT_KNEE_THIGH + i]);
     }
+    const jcal_vec3_t along = jcal_vec3_add(segment, jcal_vec3(moved[0], moved[1], moved[2]));
+    const jcal_vec3_t direction = jcal_vec3_scale(along, 1.0f / jcal_max(jcal_vec3_norm(along), FLT_MIN));
+    slope_between(direction, slope);
+    return jcal_chain_observe(state, slope, cfg->segment_length_m - jcal_vec3_dot(direction, segment),
+                              cfg->segment_tolerance_m);
 }
 
-void jcal_chain_tie(const jcal_chain_config_t *cfg, jcal_chain_state_t *state)
+bool jcal_chain_tie(const jcal_chain_config_t *cfg, jcal_chain_state_t *state)
 {
     float slope[N];
+    bool fits = true;
     if ((cfg->center.method != JCAL_CENTER_LS) && (cfg->center.acc_bias_m_s2 > 0.0f)) {
         for (size_t i = 0u; i < 3u; ++i) {
             (void)memset(slope, 0, sizeof slope);
             slope[JCAL_CHAIN_AT_HIP_BIAS + i] = 1.0f;
             slope[JCAL_CHAIN_AT_KNEE_BIAS + i] = -1.0f;
             const float apart = state->x[JCAL_CHAIN_AT_KNEE_BIAS + i] - state->x[JCAL_CHAIN_AT_HIP_BIAS + i];
-            jcal_chain_observe(state, slope, apart, SAME_BIAS);
+            fits = jcal_chain_observe(state, slope, apart, SAME_BIAS) && fits;
         }
     }
     if (jcal_vec3_dot(cfg->plane_normal, cfg->plane_normal) > 0.0f) {
         slope_between(cfg->plane_normal, slope);
-        jcal_chain_observe(state, slope, -jcal_vec3_dot(cfg->plane_normal, segment_of(state)), cfg->plane_tolerance_m);
+        const float apart = -jcal_vec3_dot(cfg->plane_normal, segment_of(state));
+        fits = jcal_chain_observe(state, slope, apart, cfg->plane_tolerance_m) && fits;
     }
     if (cfg->segment_length_m > 0.0f) {
-        tie_length(cfg, state);
+        fits = tie_length(cfg, state, slope) && fits;
     }
+    return fits;
 }

@@ -30,10 +30,11 @@ typedef struct {
 /// bound for one of its vectors: there is nothing to tie then.
 bool jcal_chain_collect(const jcal_chain_t *self, jcal_chain_state_t *state);
 
-/// Takes in that slope . x is `apart` less than it should be, with a standard deviation. Cost: 18^2 * 2 multiply-adds.
-void jcal_chain_observe(jcal_chain_state_t *state, const float *slope, float apart, float deviation);
+/// Takes in that slope . x is `apart` less than it should be, with a standard deviation. False, and nothing changed, if that contradicts
+/// what is known. Cost: 18^2 * 2 multiply-adds.
+bool jcal_chain_observe(jcal_chain_state_t *state, const float *slope, float apart, float deviation);
 
-/// All ties that the config has.
-void jcal_chain_tie(const jcal_chain_config_t *cfg, jcal_chain_state_t *state);
+/// All ties that the config has. False if one of them contradicts what is known; it is left out then.
+bool jcal_chain_tie(const jcal_chain_config_t *cfg, jcal_chain_state_t *state);
 
 #endif /* JCAL_CHAIN_TIE_H */

@@ -10,7 +10,8 @@
 const report_words_t CHAIN_WORDS = {
     .name = "Hip and knee",
     .misfit =
-        "no fixed point of both segments explains the data: soft tissue, a joint that glides, or sensors that share none",
+        "no fixed point of both segments explains the data: soft tissue, a joint that glides, sensors that share none, or another "
+        "thigh length than the one given",
     .ambiguous = "other centres explain the data about equally",
     .move_joint = "turn both segments of that joint about all axes, briskly",
     .asked_for = "both centres from all sensors",

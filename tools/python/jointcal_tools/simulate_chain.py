@@ -11,11 +11,12 @@ everywhere. Rates are those that give about the differences of its table 1. Sens
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
 from . import quaternions as quat
+from .recordings import AXES, Recording
 from .simulate import (A0_BAND_HZ, GRAVITY_M_S2, Angles, cross, elementary_quat, quat_mul, simulate_sensor, smooth_noise,
                        turn_frame)
 
@@ -67,6 +68,29 @@ class ChainRecording:
     def places(self) -> np.ndarray:
         """(4, 3)"""
         return np.array([self.hip_to_pelvis, self.hip_to_thigh, self.knee_to_thigh, self.knee_to_shank])
+
+    def first_two(self) -> Recording:
+        """Pelvis and thigh, the two sensors of the hip."""
+        return Recording(self.t_s, self.gyr[0], self.acc[0], self.gyr[1], self.acc[1])
+
+    def third_columns(self) -> dict[str, np.ndarray]:
+        """Columns of the file for the shank."""
+        return {f"{kind}3_{axis}": part for kind, of in (("gyr", self.gyr), ("acc", self.acc))
+                for axis, part in zip(AXES, of[2].T, strict=True)}
+
+    def orientation_columns(self) -> dict[str, np.ndarray]:
+        return {f"q{k + 1}_{name}": part for k, q in enumerate(self.q)
+                for name, part in zip(("w", *AXES), q.T, strict=True)}
+
+    def truth(self) -> dict:
+        """What a test wants to know besides the signals, ready for JSON. Of the hip under the names of `jointcal center` too."""
+        names = ("hip_to_pelvis_m", "hip_to_thigh_m", "knee_to_thigh_m", "knee_to_shank_m")
+        return {"source": "simulated (tools/simulate_chain.py)", "rate_hz": self.spec.rate_hz,
+                **{name: place.tolist() for name, place in zip(names, self.places(), strict=True)},
+                "joint_to_sensor1_m": self.hip_to_pelvis.tolist(), "joint_to_sensor2_m": self.hip_to_thigh.tolist(),
+                "segment_length_m": self.spec.thigh_m,
+                "knee_axis_thigh": self.knee_axis.tolist(), "knee_axis_shank": self.knee_axis_shank.tolist(),
+                "spec": {key: value for key, value in asdict(self.spec).items() if value is not None}}
 
 
 def chain_angles(spec: ChainSpec, n: int) -> Angles:
