@@ -22,7 +22,8 @@ BUDGETS = target.PORT / "budgets.json"
 PAGE = target.ROOT / "docs/measurements/budget.md"
 M4F = target.PLATFORMS["m4f"]
 ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
-TWO_DOF = "two_dof_stream"
+TWO_DOF, CENTER, CHAIN = "two_dof_stream", "center_stream", "chain"
+DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN"}
 INSTANCES, RATE_HZ = 16, 100
 SLICES_PER_S, TABLED_HZ = (200, 100, 50, 25), (50, 100)
 LISTED = 8
@@ -31,7 +32,7 @@ LISTED = 8
 def counts_of(plugin: Path, engine: str, samples: Path, definitions: tuple[str, ...]) -> tuple[dict, dict, dict]:
     """Counts of every call by kind (`cycles`: low, high, instructions), the worst call's by function, what the program printed."""
     name = f"replay_{engine}_{'_'.join(definitions).lower().replace('=', '_')}"
-    image = target.build(M4F, name, ENGINES.get(engine, ("REPLAY_TWO_DOF",)) + definitions)
+    image = target.build(M4F, name, (ENGINES.get(engine) or (() if engine in ENGINES else (DEFINED[engine],))) + definitions)
     out = target.WORK / "counts.txt"
     printed = target.run(M4F, image, samples, plugin, out)
     counts: dict[str, list[int]] = {}
@@ -108,6 +109,31 @@ def two_dof(stack: dict[str, int]) -> dict:
             f"{TWO_DOF}_stack_call_graph_bytes": stack.get("jcal_two_dof_update", 0)}
 
 
+def center(stack: dict[str, int]) -> dict:
+    """The stream engine of the joint centre at 50 Hz and 100 Hz."""
+    recording, found = target.recordings(["rig_3D_04"], "two_dof_demo")[0], {}
+    for rate_hz in TABLED_HZ:
+        counts, worst, printed = counts_of(target.build_plugin(), CENTER, target.samples_file(recording, rate_hz), ("REPLAY_STACK",))
+        key = f"{CENTER}_push_instructions" + ("" if rate_hz == RATE_HZ else f"_{rate_hz}_hz")
+        found |= {f"{key}_max": max(counts["update"]), f"{key}_mean": round(statistics.mean(counts["update"]))}
+    found |= {f"{CENTER}_state_bytes": printed["state"], f"{CENTER}_stack_painted_bytes": printed["stack"],
+              f"{CENTER}_stack_call_graph_bytes": stack.get("jcal_center_update", 0)}
+    if "--profile-center" in sys.argv:
+        for name, count in sorted(worst["update"].items(), key=lambda item: -item[1])[:15]:
+            print(f"    {count:8d}  {name}")
+    return found
+
+
+def chain(stack: dict[str, int]) -> dict:
+    """Hip and knee at 100 Hz: jcal_chain_push and jcal_chain_step together."""
+    recording = target.recordings(["human_leg_left"], "chain_demo")[0]
+    counts, _, printed = counts_of(target.build_plugin(), CHAIN, target.triples_file(recording, RATE_HZ), ("REPLAY_STACK",))
+    return {f"{CHAIN}_push_instructions_max": max(counts["update"]),
+            f"{CHAIN}_push_instructions_mean": round(statistics.mean(counts["update"])), f"{CHAIN}_state_bytes": printed["state"],
+            f"{CHAIN}_stack_painted_bytes": printed["stack"],
+            f"{CHAIN}_stack_call_graph_bytes": max(stack.get(f"jcal_chain_{name}", 0) for name in ("push", "step", "get"))}
+
+
 def fewer_slices(recording: Path) -> dict:
     """Instructions of an update by slices_per_s and rate, on the first minute of the recording at that rate."""
     plugin, found = target.build_plugin(), {}
@@ -162,7 +188,7 @@ def measure(samples: Path, recording: Path) -> tuple[dict, dict]:
         numbers[f"hinge_{engine}_state_bytes"] = of["state"]
         numbers[f"hinge_{engine}_stack_painted_bytes"] = of["stack"]
         numbers[f"hinge_{engine}_stack_call_graph_bytes"] = stack.get(f"jcal_{prefix}_update", 0)
-    numbers |= two_dof(stack)
+    numbers |= two_dof(stack) | center(stack) | chain(stack)
     numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
     numbers |= sixteen(recording)
     numbers["hub_flash_bytes"] = linked_bytes("hub") - linked_bytes("hub_empty", ("HUB_EMPTY",))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write the bundled demo recordings tools/demo/{hinge,two_dof}_demo.csv and their truths, .json.
+"""Write the bundled demo recordings tools/demo/{hinge,two_dof,chain}_demo.csv and their truths, .json.
 
     python3 tools/make_demo.py            write all
     python3 tools/make_demo.py --check    exit 1 if the files in the repository differ
@@ -8,6 +8,8 @@ Hinge: rest, then motion with a stiff joint (nothing to learn about the axis),
 then informative motion: 30 s at 50 Hz with realistic disturbances.
 Two axes: rest, motion about one axis only, then about both: 40 s at 50 Hz.
 Gyroscope bias lets the heading of orientations computed from it drift.
+Hip and knee: three sensors, motion of type 2 of SAL15: 30 s at 50 Hz, with a
+third of the papers' noise, which is what sensors of today have.
 """
 
 import argparse
@@ -21,6 +23,7 @@ sys.path.insert(0, str(TOOLS / "python"))
 
 from jointcal_tools.recordings import write_csv  # noqa: E402
 from jointcal_tools.simulate import HingeSpec, simulate_hinge  # noqa: E402
+from jointcal_tools.simulate_chain import ChainSpec, simulate_chain  # noqa: E402
 from jointcal_tools.simulate_two_dof import TwoDofSpec, simulate_two_dof  # noqa: E402
 
 DEMO = TOOLS / "demo"
@@ -28,6 +31,7 @@ HINGE = HingeSpec(motions=(("rest", 4.0), ("stiff", 4.0), ("7", 10.0), ("6", 9.0
                   rate_hz=50.0, seed=2020, acc_bias=0.1, gyr_bias_deg_s=0.3, soft_tissue_deg=0.5)
 TWO_DOF = TwoDofSpec(motions=(("rest", 4.0), ("hinge", 6.0), ("free", 28.0)),
                      rate_hz=50.0, seed=2022, carrying_deg=8.0, acc_bias=0.1, gyr_bias_deg_s=0.1, soft_tissue_deg=0.3)
+CHAIN = ChainSpec(type=2, seconds=30.0, rate_hz=50.0, seed=2015, noise_scale=0.3, acc_bias=0.1, gyr_bias_deg_s=0.1)
 DIGITS = 7  # few enough that no platform's last bit shows
 
 
@@ -42,6 +46,10 @@ def rounded(value):
     return value
 
 
+def write_truth(path: Path, truth: dict) -> None:
+    path.write_text(json.dumps(rounded(truth), indent=1) + "\n", newline="\n")
+
+
 def write_demo(folder: Path) -> None:
     folder.mkdir(exist_ok=True)
     for name, rec in (("hinge_demo", simulate_hinge(HINGE)), ("two_dof_demo", simulate_two_dof(TWO_DOF))):
@@ -49,7 +57,10 @@ def write_demo(folder: Path) -> None:
         # The heading offset of computed orientations is not that of the simulated ones, which no file holds.
         truth = {**rec.truth(), "source": "simulated (tools/make_demo.py)"}
         truth.pop("heading_offset_deg", None)
-        (folder / f"{name}.json").write_text(json.dumps(rounded(truth), indent=1) + "\n", newline="\n")
+        write_truth(folder / f"{name}.json", truth)
+    chain = simulate_chain(CHAIN)
+    write_csv(folder / "chain_demo.csv", chain.first_two(), digits=DIGITS, extra=chain.third_columns())
+    write_truth(folder / "chain_demo.json", {**chain.truth(), "source": "simulated (tools/make_demo.py)"})
 
 
 def main() -> int:

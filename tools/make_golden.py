@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Write the golden vectors, host_tests/golden/hinge.h and two_dof.h, from the float64 references.
+"""Write the golden vectors, host_tests/golden/hinge.h, two_dof.h and center.h, from the float64 references.
 
     python3 tools/make_golden.py            write the files
     python3 tools/make_golden.py --check    exit 1 if the numbers in the repository differ
@@ -11,7 +11,7 @@ tolerance, and everything between them exactly.
 The numbers know nothing of the C code: samples come from the simulator, the costs of
 the stream form and of OLS20 from jointcal_tools.ols20 and from the formulas of
 docs/METHOD.md section 2, written out below; those of the 2-DoF joint from
-jointcal_tools.lai22 and lai22_angles.
+jointcal_tools.lai22 and lai22_angles, those of the joint centre from jointcal_tools.ols17.
 """
 
 from __future__ import annotations
@@ -26,16 +26,20 @@ import numpy as np
 TOOLS = Path(__file__).resolve().parent
 sys.path.insert(0, str(TOOLS / "python"))
 
-from jointcal_tools import lai22, lai22_angles, ols20  # noqa: E402
+from jointcal_tools import lai22, lai22_angles, ols17, ols20  # noqa: E402
 from jointcal_tools import quaternions as quat  # noqa: E402
 from jointcal_tools.lai22_signals import Samples  # noqa: E402
+from jointcal_tools.recordings import Recording  # noqa: E402
 from jointcal_tools.simulate import HingeSpec, simulate_hinge  # noqa: E402
+from jointcal_tools.simulate_two_dof import TwoDofSpec, simulate_two_dof  # noqa: E402
 
 GOLDEN = TOOLS.parent / "host_tests" / "golden"
 SEED = 42
 SAMPLES = 40
 POINTS = 6
 TWO_DOF_SAMPLES = 30
+CENTER_SAMPLES, CENTER_SHOWN = 250, 12
+CENTER_RATE_HZ = 50.0
 RATE_HZ = 50.0
 GYR_NOISE_RAD_S = 0.03  # fields of jcal_hinge_config_t with their defaults
 ACC_BIAS_M_S2 = 0.5
@@ -195,7 +199,61 @@ def two_dof_header() -> str:
 """
 
 
-HEADERS = {"hinge.h": hinge_header, "two_dof.h": two_dof_header}
+def center_recording() -> Recording:
+    """A lively simulated ball joint, in float32."""
+    rec = simulate_two_dof(TwoDofSpec(motions=(("three_dof", CENTER_SAMPLES / CENTER_RATE_HZ),), rate_hz=CENTER_RATE_HZ,
+                                      seed=SEED, speed=2.0, noise_scale=0.3, acc_bias=0.1))
+    return Recording(rec.t_s, *(float32(v) for v in (rec.gyr1, rec.acc1, rec.gyr2, rec.acc2)))
+
+
+def center_rows(s: ols17.Samples, x: np.ndarray) -> np.ndarray:
+    """(n, 14): residual (16), its slopes by r1, r2, b1, b2 and |K1 r1|^2 + |K2 r2|^2."""
+    e, slopes, turn2 = ols17.lengths(s, x)
+    return np.column_stack([e, slopes, turn2])
+
+
+def center_header() -> str:
+    rec = center_recording()
+    point = np.round(np.random.default_rng(SEED + 1).uniform(-0.3, 0.3, 12), 2)
+    model = {"bias": 0.3, "reach_m": 0.3, "noise": (0.05, 0.01)}
+    bodies = []
+    for kind, smoothing_s in (("five-point", 0.12), ("five-point", 0.0), ("symmetric", 0.0)):
+        s = ols17.prepare(rec, kind, smoothing_s)
+        bodies.append(np.hstack([s.a1, s.k1.reshape(-1, 9), s.a2, s.k2.reshape(-1, 9)])[:CENTER_SHOWN])
+    plain = ols17.prepare(rec)
+    fits = [ols17.solve_lengths(plain, absolute=absolute, **model) for absolute in (False, True)]
+    shape = "a1, K1 row by row, a2, K2"
+    tables = [
+        table("golden_samples", "gyr1, rad/s, acc1, m/s^2, gyr2, acc2.", np.hstack([rec.gyr1, rec.acc1, rec.gyr2, rec.acc2]), "float"),
+        table("golden_point", "r1, r2, m, and biases, m/s^2, of the rows.", point[None], "float"),
+        table("golden_smoothed", f"First bodies, five points, smoothed over 0.12 s: {shape}.", bodies[0]),
+        table("golden_five_point", f"First bodies, five points: {shape}.", bodies[1]),
+        table("golden_symmetric", f"First bodies, (8): {shape}.", bodies[2]),
+        table("golden_rows", "Of the unsmoothed bodies, five points, at the point: (16), its slopes by r1, r2, b1, b2, |K1 r1|^2 + |K2 r2|^2.",
+              center_rows(ols17.prepare(rec, smoothing_s=0.0).take(slice(CENTER_SHOWN)), point)),
+        table("golden_fits", "SS and SA with the default weights and priors: r1, r2, m, and biases, m/s^2.",
+              np.array([np.concatenate([f.r1, f.r2, f.bias1, f.bias2]) for f in fits])),
+    ]
+    return f"""/* SPDX-License-Identifier: MIT */
+/// @file
+/// Golden vectors of the joint centre in float64, generated: do not edit. Compared by unit/test_golden_center.c.
+///
+/// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
+#ifndef GOLDEN_CENTER_H
+#define GOLDEN_CENTER_H
+
+/* clang-format off */
+#define GOLDEN_SAMPLES {CENTER_SAMPLES}
+#define GOLDEN_SHOWN {CENTER_SHOWN}
+#define GOLDEN_RATE_HZ {CENTER_RATE_HZ:.1f}
+
+""" + "\n".join(tables) + """/* clang-format on */
+
+#endif /* GOLDEN_CENTER_H */
+"""
+
+
+HEADERS = {"hinge.h": hinge_header, "two_dof.h": two_dof_header, "center.h": center_header}
 
 
 def differences(old: str, new: str) -> list[str]:

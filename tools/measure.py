@@ -41,6 +41,9 @@ MEASUREMENTS = {
     "two_dof_sim": "2-DoF joint, simulated: coverage, sharpness, what must never be ready",
     "moved": "slips: how soon they are noticed, false alarms",
     "angles": "joint angles of the rig beside the optical ones",
+    "center": "joint centre: rig recordings, measured vectors, float64, parts, hinges",
+    "center_sim": "joint centre, simulated: coverage, sharpness, what must never be ready, table I of OLS17",
+    "chain": "hip and knee: SAL15 simulated, ingredient by ingredient, a person's thigh",
     "cost": "time and memory, beside qmt",
 }
 MODULES = {"time": "time_to_ready"}  # where the name differs

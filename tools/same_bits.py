@@ -14,12 +14,17 @@ sys.path.insert(0, str(Path(__file__).resolve().parent / "python"))
 from jointcal_tools import target  # noqa: E402
 
 HINGES = ["rig_1D_01", "rig_1D_02", "rig_1D_04"], "hinge_demo"
+CENTER = ["rig_3D_01", "rig_3D_02", "rig_2D_05"], "two_dof_demo"
+CHAIN = ["human_leg_left"], "chain_demo"
 TWO_DOF = ["rig_2D_01", "rig_2D_02", "rig_2D_05"], "two_dof_demo"
 # What the image is called, its definitions, recordings, and how they become samples.
 ENGINES = {"hinge, stream": ("hinge_stream", (), HINGES, target.samples_file),
            "hinge, window, N_max 125": ("hinge_window", ("REPLAY_WINDOW",), HINGES, target.samples_file),
-           "two-dof, stream": ("two_dof_stream", ("REPLAY_TWO_DOF",), TWO_DOF, target.orientations_file)}
-NOT_ON = {"hinge, window, N_max 125": ("m0",)}  # its buffers and those of the program are more than 16 KiB
+           "two-dof, stream": ("two_dof_stream", ("REPLAY_TWO_DOF",), TWO_DOF, target.orientations_file),
+           "centre, stream": ("center_stream", ("REPLAY_CENTER",), CENTER, target.samples_file),
+           "chain": ("chain", ("REPLAY_CHAIN",), CHAIN, target.triples_file)}
+# With the buffers of the program more than 16 KiB.
+NOT_ON = {"hinge, window, N_max 125": ("m0",), "chain": ("m0",)}
 PAGE = target.ROOT / "docs/measurements/same_bits.md"
 
 
@@ -31,7 +36,7 @@ def recordings_of(names: list[str], bundled: str) -> list[Path]:
 def main() -> int:
     lines = ["# Same bits", "",
              "Written by `tools/same_bits.py`: FNV-1a (64 bit) over every field of the result after every sample. m0 is QEMU's",
-             "microbit, a Cortex-M0 with 16 KiB of RAM; the window engine does not fit there beside the program that feeds it.", "",
+             "microbit, a Cortex-M0 with 16 KiB of RAM; the window engine and the chain do not fit there beside the program that feeds them.", "",
              "| recording | samples | engine | " + " | ".join(target.PLATFORMS) + " | same |",
              "|---|---|---|" + "---|" * (len(target.PLATFORMS) + 1)]
     same_everywhere = True

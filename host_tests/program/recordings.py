@@ -95,3 +95,47 @@ def two_dof_rows(seconds, heading=-1.2, carrying=0.15, rate_hz=50.0):
         imus = [noise.gauss(0, 1) for _ in range(12)]
         rows.append([t] + imus + joint_orientations(t, flexion, heading, carrying, pronation))
     return rows
+
+
+def conjugate(q):
+    return [q[0], -q[1], -q[2], -q[3]]
+
+
+def rotate(q, v):
+    return multiply(multiply(q, [0.0] + list(v)), conjugate(q))[1:]
+
+
+R1, R2 = (-0.12, 0.03, 0.05), (0.04, 0.16, -0.02)  # joint to sensor of center_rows(), m
+CENTER_HEADING = -0.8
+
+
+def ball_orientations(t, free=3):
+    """Both sensors to one earth frame; `free` of the joint's three turns move."""
+    q1 = multiply(multiply(turn(0.9 * math.sin(2.9 * t), 2), turn(0.9 * math.sin(3.7 * t + 1), 0)), turn(0.9 * math.sin(3.3 * t), 1))
+    q2 = q1
+    for axis, (size, pace) in enumerate(((0.8, 4.1), (0.7, 3.3), (0.6, 4.7))[:free]):
+        q2 = multiply(q2, turn(size * math.sin(pace * t + axis), (2, 1, 0)[axis]))
+    return q1, q2
+
+
+def center_rows(seconds, rate_hz=50.0, free=3):
+    """A joint centre that is carried about; everything is a difference of poses. Orientations: sensor 2 with its own heading."""
+    noise = random.Random(3)
+    h = 1e-4
+    rows = []
+    for k in range(int(seconds * rate_hz)):
+        t = k / rate_hz
+        imus = []
+        for sensor, r in enumerate((R1, R2)):
+            poses = [ball_orientations(t + d, free)[sensor] for d in (-h, 0.0, h)]
+            step = multiply(conjugate(poses[0]), poses[2])
+            rate = [c / h for c in step[1:]]
+            places = [[a + 0.02 * math.sin((3 + i) * (t + d)) for i, a in enumerate(rotate(q, r))]
+                      for q, d in zip(poses, (-h, 0.0, h), strict=True)]
+            force = [(before - 2 * at + after) / h**2 for before, at, after in zip(*places, strict=True)]
+            force[2] += 9.81
+            felt = rotate(conjugate(poses[1]), force)
+            imus += [v + noise.gauss(0, 0.001) for v in rate] + [v + noise.gauss(0, 0.02) for v in felt]
+        q1, q2 = ball_orientations(t, free)
+        rows.append([t] + imus + q1 + multiply(turn(-CENTER_HEADING, 2), q2))
+    return rows

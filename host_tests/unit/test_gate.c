@@ -193,6 +193,17 @@ static void the_sample_after_a_hole_is_what_the_next_one_is_compared_with(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REJECT_REPEATED, check(&pair));
 }
 
+static void one_wild_force_costs_one_sample(void)
+{
+    accept(50);
+    jcal_pair_t wild = good();
+    wild.imu2.acc_m_s2.x = -1e6f;
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECT_OUT_OF_RANGE, check(&wild));
+    accept(50);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, jcal_gate_complaint(&gate));
+    TEST_ASSERT_TRUE(gate.sensor2.extreme[3] < 100.0f); /* what is clipped shows at the range that the sensor has */
+}
+
 static void out_of_range_goes_before_saturated_frozen_and_repeated(void)
 {
     accept(20);
@@ -243,6 +254,7 @@ int main(void)
     RUN_TEST(time_that_does_not_increase_is_rejected_and_the_clock_stays);
     RUN_TEST(a_hole_in_time_costs_the_sample_after_it);
     RUN_TEST(the_sample_after_a_hole_is_what_the_next_one_is_compared_with);
+    RUN_TEST(one_wild_force_costs_one_sample);
     RUN_TEST(out_of_range_goes_before_saturated_frozen_and_repeated);
     RUN_TEST(of_two_sensors_the_worse_cause_counts);
     RUN_TEST(every_cause_has_its_name);

@@ -66,12 +66,15 @@ static void weak_and_hint_are_null_for_none_and_words_otherwise(void)
     TEST_ASSERT_EQUAL_STRING("axis2", jcal_weak_string(JCAL_WEAK_AXIS2));
     TEST_ASSERT_EQUAL_STRING("sign", jcal_weak_string(JCAL_WEAK_SIGN));
     TEST_ASSERT_EQUAL_STRING("heading", jcal_weak_string(JCAL_WEAK_HEADING));
+    TEST_ASSERT_EQUAL_STRING("center1", jcal_weak_string(JCAL_WEAK_CENTER1));
+    TEST_ASSERT_EQUAL_STRING("center2", jcal_weak_string(JCAL_WEAK_CENTER2));
     TEST_ASSERT_NULL(jcal_hint_string(JCAL_HINT_NONE));
     TEST_ASSERT_EQUAL_STRING("move_joint", jcal_hint_string(JCAL_HINT_MOVE_JOINT));
     TEST_ASSERT_EQUAL_STRING("move_segment1", jcal_hint_string(JCAL_HINT_MOVE_SEGMENT1));
     TEST_ASSERT_EQUAL_STRING("move_segment2", jcal_hint_string(JCAL_HINT_MOVE_SEGMENT2));
     TEST_ASSERT_EQUAL_STRING("tilt_axis", jcal_hint_string(JCAL_HINT_TILT_AXIS));
     TEST_ASSERT_EQUAL_STRING("check_sensors", jcal_hint_string(JCAL_HINT_CHECK_SENSORS));
+    TEST_ASSERT_EQUAL_STRING("more_directions", jcal_hint_string(JCAL_HINT_MORE_DIRECTIONS));
 }
 
 static void reasons_are_null_for_none_and_words_otherwise(void)
@@ -118,8 +121,8 @@ static void the_first_number_after_each_enumeration_is_unknown(void)
 {
     TEST_ASSERT_EQUAL_STRING("unknown", jcal_calibration_string((jcal_calibration_t)4));
     TEST_ASSERT_EQUAL_STRING("unknown", jcal_engine_string((jcal_engine_t)2));
-    TEST_ASSERT_NULL(jcal_weak_string((jcal_weak_t)5));
-    TEST_ASSERT_NULL(jcal_hint_string((jcal_hint_t)6));
+    TEST_ASSERT_NULL(jcal_weak_string((jcal_weak_t)7));
+    TEST_ASSERT_NULL(jcal_hint_string((jcal_hint_t)7));
     TEST_ASSERT_NULL(jcal_reason_string((jcal_reason_t)10));
 }
 

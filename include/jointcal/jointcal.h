@@ -9,6 +9,9 @@
 #define JCAL_VERSION_PATCH 0
 #define JCAL_VERSION_STRING "0.1.0"
 
+#include "jointcal/center.h"
+#include "jointcal/center_window.h"
+#include "jointcal/chain.h"
 #include "jointcal/config.h"
 #include "jointcal/gate.h"
 #include "jointcal/hinge.h"

@@ -42,10 +42,12 @@ typedef enum {
 /// The unknown that is known worst.
 typedef enum {
     JCAL_WEAK_NONE = 0,
-    JCAL_WEAK_AXIS1 = 1,   ///< Axis in sensor frame 1.
-    JCAL_WEAK_AXIS2 = 2,   ///< Axis in sensor frame 2.
-    JCAL_WEAK_SIGN = 3,    ///< Sign pairing of the two axes.
-    JCAL_WEAK_HEADING = 4  ///< Heading offset of the two orientations.
+    JCAL_WEAK_AXIS1 = 1,    ///< Axis in sensor frame 1.
+    JCAL_WEAK_AXIS2 = 2,    ///< Axis in sensor frame 2.
+    JCAL_WEAK_SIGN = 3,     ///< Sign pairing of the two axes.
+    JCAL_WEAK_HEADING = 4,  ///< Heading offset of the two orientations.
+    JCAL_WEAK_CENTER1 = 5,  ///< Joint centre as seen from sensor 1.
+    JCAL_WEAK_CENTER2 = 6   ///< Joint centre as seen from sensor 2.
 } jcal_weak_t;
 
 /// The motion that would help most.
@@ -56,7 +58,8 @@ typedef enum {
     JCAL_HINT_MOVE_SEGMENT2 = 3,  ///< Turn the distal segment.
     JCAL_HINT_TILT_AXIS = 4,      ///< Tilt the joint axis out of the horizontal, so that gravity shows its sense.
     /// More of the same motion will not help: units, range, mounting or pairing are wrong.
-    JCAL_HINT_CHECK_SENSORS = 5
+    JCAL_HINT_CHECK_SENSORS = 5,
+    JCAL_HINT_MORE_DIRECTIONS = 6  ///< Turn both segments about other axes too: so far a direction is left open.
 } jcal_hint_t;
 
 /// Why the status is not `ready`.
@@ -80,7 +83,7 @@ const char *jcal_status_string(jcal_status_t status);
 const char *jcal_calibration_string(jcal_calibration_t calibration);
 /// `stream` or `window`; never null. Threads: no state.
 const char *jcal_engine_string(jcal_engine_t engine);
-/// `axis1`, `axis2`, `sign`, `heading`; null for JCAL_WEAK_NONE. Threads: no state.
+/// `axis1`, `axis2`, `sign`, `heading`, `center1`, `center2`; null for JCAL_WEAK_NONE. Threads: no state.
 const char *jcal_weak_string(jcal_weak_t weak);
 /// `move_joint`, ...; null for JCAL_HINT_NONE. Threads: no state.
 const char *jcal_hint_string(jcal_hint_t hint);

@@ -56,14 +56,14 @@ const char *jcal_engine_string(jcal_engine_t engine)
 
 const char *jcal_weak_string(jcal_weak_t weak)
 {
-    static const char *const words[] = {NULL, "axis1", "axis2", "sign", "heading"};
+    static const char *const words[] = {NULL, "axis1", "axis2", "sign", "heading", "center1", "center2"};
     return word(words, COUNT(words), (int)weak, NULL);
 }
 
 const char *jcal_hint_string(jcal_hint_t hint)
 {
-    static const char *const words[] = {NULL,        "move_joint",   "move_segment1", "move_segment2",
-                                        "tilt_axis", "check_sensors"};
+    static const char *const words[] = {NULL,        "move_joint",    "move_segment1",  "move_segment2",
+                                        "tilt_axis", "check_sensors", "more_directions"};
     return word(words, COUNT(words), (int)hint, NULL);
 }
 

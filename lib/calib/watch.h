@@ -19,8 +19,9 @@
 /// What is usual is never taken for less than this: a calm moment is no measure.
 #define JCAL_WATCH_LEAST 0.25f
 
-/// A square counts at most this many times the usual: a few samples spoilt by a lost packet are no slip.
-#define JCAL_WATCH_CLIP 50.0f
+/// A square counts at most this many times the usual, so that an alarm takes a third of a second of motion that does not fit: a few samples
+/// spoilt by a lost packet, or by sensors that are put down on a table, are no slip.
+#define JCAL_WATCH_CLIP 20.0f
 
 /// Squared rates of both sensors at which a sample counts half: rest tells nothing, (rad/s)^2.
 #define JCAL_WATCH_REST_RATE2 0.25f

@@ -111,13 +111,14 @@ static bool is_repeated(const jcal_gate_sensor_t *sensor, const float now[6])
     return same;
 }
 
+static bool exceeds(const float v[3], float limit)
+{
+    return (fabsf(v[0]) > limit) || (fabsf(v[1]) > limit) || (fabsf(v[2]) > limit);
+}
+
 static bool is_beyond(const jcal_gate_config_t *cfg, const float now[6])
 {
-    bool beyond = false;
-    for (unsigned i = 0u; i < 6u; ++i) {
-        beyond = beyond || (fabsf(now[i]) > ((i < 3u) ? cfg->gyr_max_rad_s : cfg->acc_max_m_s2));
-    }
-    return beyond;
+    return exceeds(&now[0], cfg->gyr_max_rad_s) || exceeds(&now[3], cfg->acc_max_m_s2);
 }
 
 /// Follows the mean magnitude of the specific force, and how much it changes beside what the rate would make of it.
@@ -176,6 +177,9 @@ static jcal_reject_t check_sensor(const jcal_gate_config_t *cfg, jcal_gate_senso
     const bool repeated = is_repeated(sensor, now);
     const bool clipped = is_clipped(sensor, now);
     sensor->repeated_s = repeated ? (sensor->repeated_s + dt_s) : 0.0f;
+    if (exceeds(&now[3], cfg->acc_max_m_s2)) {
+        return JCAL_REJECT_OUT_OF_RANGE; /* no force that a sensor feels: nothing to learn of gravity or of its range */
+    }
     follow(sensor, imu, dt_s);
     remember(sensor, now);
     if (is_beyond(cfg, now) || acc_looks_wrong(sensor) || gyr_looks_wrong(sensor)) {

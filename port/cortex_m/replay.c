@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /* Replays samples through an engine and prints a hash of every result, on the host and on a target.
  *
- * Reads `samples.bin` (records laid out like jcal_pair_t or jcal_orientation_pair_t, little endian) from the working directory; on a target that is
+ * Reads `samples.bin` (records laid out like jcal_pair_t, jcal_orientation_pair_t or jcal_triple_t, little endian) from the working directory; on a target that is
  * a file of the host, by semihosting. Equal hashes mean equal bits of every field of every result. The functions
  * replay_mark_* tell tools/budget.py's instruction counter where a call begins and ends.
  *
- * Compile definitions: REPLAY_TWO_DOF (stream engine of the 2-DoF joint; otherwise that of the hinge), REPLAY_WINDOW (window
- * engine, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
+ * Compile definitions: REPLAY_TWO_DOF, REPLAY_CENTER, REPLAY_CHAIN (stream engine of the 2-DoF joint, of the joint centre, of
+ * hip and knee; otherwise that of the hinge), REPLAY_WINDOW (window engine of the hinge, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
  * the stack before every call and print how deep the deepest one went). */
+#include "jointcal/center.h"
+#include "jointcal/chain.h"
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_window.h"
 #include "jointcal/two_dof.h"
@@ -22,6 +24,7 @@ enum { CHUNK = 64, N_MAX = 125, PAINT_WORDS = 1024 };
 #define PAINT 0xC5A3C5A3u
 
 typedef char pair_has_no_padding[(sizeof(jcal_pair_t) == 56) ? 1 : -1];
+typedef char triple_has_no_padding[(sizeof(jcal_triple_t) == 80) ? 1 : -1];
 typedef char orientations_have_no_padding[(sizeof(jcal_orientation_pair_t) == 40) ? 1 : -1];
 
 #ifdef REPLAY_TWO_DOF
@@ -37,6 +40,47 @@ static jcal_status_t engine_init(void)
 {
     const jcal_two_dof_config_t config = jcal_two_dof_config_default();
     return jcal_two_dof_init(&replayed, &config);
+}
+#elif defined(REPLAY_CENTER)
+typedef jcal_pair_t sample_t;
+typedef jcal_center_result_t result_t;
+static jcal_center_t replayed;
+#define engine_push jcal_center_push
+#define engine_step jcal_center_step
+#define engine_update jcal_center_update
+#define engine_get jcal_center_get
+#define has_axes has_center
+
+static jcal_status_t engine_init(void)
+{
+    const jcal_center_config_t config = jcal_center_config_default();
+    return jcal_center_init(&replayed, &config);
+}
+#elif defined(REPLAY_CHAIN)
+typedef jcal_triple_t sample_t;
+typedef jcal_chain_result_t result_t;
+static jcal_chain_t replayed;
+#define engine_step jcal_chain_step
+#define engine_get jcal_chain_get
+#define has_axes has_places
+
+static jcal_status_t engine_push(jcal_chain_t *self, const jcal_triple_t *triple)
+{
+    return jcal_chain_push(self, triple, NULL);
+}
+
+#ifndef REPLAY_SPLIT
+static void engine_update(jcal_chain_t *self, const jcal_triple_t *triple)
+{
+    (void)engine_push(self, triple);
+    (void)engine_step(self);
+}
+#endif
+
+static jcal_status_t engine_init(void)
+{
+    const jcal_chain_config_t config = jcal_chain_config_default();
+    return jcal_chain_init(&replayed, &config);
 }
 #else
 typedef jcal_pair_t sample_t;
@@ -195,6 +239,31 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
                             r->progress_axis1,
                             r->progress_axis2,
                             r->progress_heading};
+#elif defined(REPLAY_CENTER)
+static uint64_t hash_floats(uint64_t hash, const result_t *r)
+{
+    const jcal_vec3_t vectors[] = {r->joint_to_sensor1_m, r->joint_to_sensor2_m, r->weakest_direction1,
+                                   r->weakest_direction2, r->acc_bias1_m_s2,     r->acc_bias2_m_s2};
+    for (size_t k = 0; k < sizeof(vectors) / sizeof(vectors[0]); ++k) {
+        hash = hash_f32(hash_f32(hash_f32(hash, vectors[k].x), vectors[k].y), vectors[k].z);
+    }
+    const float floats[] = {r->uncertainty1_m,
+                            r->uncertainty2_m,
+                            r->uncertainty_weakest1_m,
+                            r->uncertainty_weakest2_m,
+                            r->heading_offset_rad,
+                            r->misfit,
+                            r->progress1,
+                            r->progress2};
+#elif defined(REPLAY_CHAIN)
+static uint64_t hash_floats(uint64_t hash, const result_t *r)
+{
+    for (int k = 0; k < JCAL_CHAIN_PLACES; ++k) {
+        hash = hash_f32(hash_f32(hash_f32(hash, r->place_m[k].x), r->place_m[k].y), r->place_m[k].z);
+    }
+    const float floats[] = {r->uncertainty_m[0],       r->uncertainty_m[1],      r->uncertainty_m[2],
+                            r->uncertainty_m[3],       r->segment_length_m,      r->uncertainty_segment_m,
+                            (float)r->joint_status[0], (float)r->joint_status[1]};
 #else
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {
@@ -211,8 +280,14 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
 
 static uint64_t hash_result(uint64_t hash, const result_t *r)
 {
-    const uint32_t words[] = {(uint32_t)r->status, (uint32_t)r->engine,   (uint32_t)r->weak, (uint32_t)r->hint,
-                              (uint32_t)r->reason, r->has_axes ? 1u : 0u, r->samples,        r->rejected};
+#ifdef REPLAY_CHAIN
+    const uint32_t engine = (uint32_t)JCAL_ENGINE_STREAM;
+#else
+    const uint32_t engine = (uint32_t)r->engine;
+#endif
+    const uint32_t words[] = {
+        (uint32_t)r->status,   engine,     (uint32_t)r->weak, (uint32_t)r->hint, (uint32_t)r->reason,
+        r->has_axes ? 1u : 0u, r->samples, r->rejected};
     for (size_t k = 0; k < sizeof(words) / sizeof(words[0]); ++k) {
         hash = hash_u64(hash, words[k], 4);
     }

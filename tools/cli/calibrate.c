@@ -139,8 +139,7 @@ static exit_status_t run_recording(session_t *session)
     return status;
 }
 
-exit_status_t calibrate(const calibrate_options_t *options, const calibrate_joint_t *joint, void *self,
-                        float max_bound_rad)
+exit_status_t calibrate(const calibrate_options_t *options, const calibrate_joint_t *joint, void *self, float max_bound)
 {
     session_t *session = calloc(1, sizeof *session);
     if (session == NULL) {
@@ -151,7 +150,7 @@ exit_status_t calibrate(const calibrate_options_t *options, const calibrate_join
     session->joint = joint;
     session->self = self;
     session->report.words = joint->words;
-    session->report.max_bound_rad = max_bound_rad;
+    session->report.max_bound = max_bound;
     exit_status_t status = EXIT_INPUT;
     if (input_open(&session->input, options->recording) != 0) {
         complain(options->recording, 0, 0, "%s", strerror(session->input.error));

@@ -31,8 +31,8 @@ typedef struct {
     const report_words_t *words;
 } calibrate_joint_t;
 
-/// Runs over a recording. Errors are told on standard error.
+/// Runs over a recording; `max_bound` in rad or m. Errors are told on standard error.
 exit_status_t calibrate(const calibrate_options_t *options, const calibrate_joint_t *joint, void *self,
-                        float max_bound_rad);
+                        float max_bound);
 
 #endif

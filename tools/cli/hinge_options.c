@@ -71,7 +71,7 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
         engine->kind = (jcal_engine_t)option_one_of_two(state, "engine", argument, "stream", "window");
         return 0;
     case KEY_N_MAX:
-        engine->config.n_max = option_sample_count(state, argument, 10000);
+        engine->config.n_max = option_sample_count(state, argument, 20, 10000);
         parse->has_n_max = true;
         return 0;
     case KEY_WINDOW:

@@ -11,6 +11,10 @@ const report_words_t HINGE_WORDS = {
     .ambiguous = "other axes explain the data about equally",
     .move_joint = "bend and stretch the joint",
     .asked_for = "both axes",
+    .bounded = "axes",
+    .unit = "deg",
+    .per_unit = DEG_PER_RAD,
+    .unknown = BOUND_UNKNOWN_RAD,
 };
 
 finding_t hinge_finding(const jcal_hinge_result_t *result)
@@ -20,11 +24,11 @@ finding_t hinge_finding(const jcal_hinge_result_t *result)
                          .weak = result->weak,
                          .hint = result->hint,
                          .reason = result->reason,
-                         .has_axes = result->has_axes,
+                         .has_estimate = result->has_axes,
                          .axis1 = result->axis1,
                          .axis2 = result->axis2,
-                         .uncertainty1_rad = result->uncertainty1_rad,
-                         .uncertainty2_rad = result->uncertainty2_rad,
+                         .bound1 = result->uncertainty1_rad,
+                         .bound2 = result->uncertainty2_rad,
                          .samples = result->samples,
                          .rejected = result->rejected};
     memcpy(finding.rejected_by, result->rejected_by, sizeof finding.rejected_by);
@@ -34,6 +38,7 @@ finding_t hinge_finding(const jcal_hinge_result_t *result)
 void hinge_write_json(FILE *file, const char *event, const report_t *report, const jcal_hinge_result_t *result)
 {
     json_t json = report_json_begin(file, event, report);
+    report_json_axes(&json, &report->finding);
     json_number(&json, "sign_margin", (result->sign_margin > 0.0f) ? result->sign_margin : NAN);
     if (result->engine == JCAL_ENGINE_WINDOW) {
         json_bool(&json, "paper_accepted", result->paper_accepted);
@@ -54,6 +59,7 @@ static void print_pairing(FILE *file, float margin)
 void hinge_print_summary(FILE *file, const report_t *report, const jcal_hinge_result_t *result)
 {
     report_print_head(file, report);
+    report_print_axes(file, report);
     print_pairing(file, result->sign_margin);
     report_print_state(file, report);
     if (result->engine == JCAL_ENGINE_WINDOW) {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The program `jointcal`: picks the subcommand. */
 #include "angles_command.h"
+#include "center_command.h"
+#include "chain_command.h"
 #include "hinge_command.h"
 #include "jointcal/jointcal.h"
 #include "message.h"
@@ -19,14 +21,16 @@ typedef struct {
 } command_t;
 
 static char angles_name[] = "jointcal angles";
+static char center_name[] = "jointcal center";
+static char chain_name[] = "jointcal chain";
 static char hinge_name[] = "jointcal hinge";
 static char stream_name[] = "jointcal stream";
 static char two_dof_name[] = "jointcal two-dof";
 
-static const command_t COMMANDS[] = {{"angles", angles_command, angles_name},
-                                     {"hinge", hinge_command, hinge_name},
-                                     {"stream", stream_command, stream_name},
-                                     {"two-dof", two_dof_command, two_dof_name}};
+static const command_t COMMANDS[] = {
+    {"angles", angles_command, angles_name}, {"center", center_command, center_name},
+    {"chain", chain_command, chain_name},    {"hinge", hinge_command, hinge_name},
+    {"stream", stream_command, stream_name}, {"two-dof", two_dof_command, two_dof_name}};
 
 #define COMMAND_COUNT (sizeof COMMANDS / sizeof COMMANDS[0])
 
@@ -60,13 +64,13 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         choice->command = find_command(argument);
         choice->index = state->next - 1;
         if (choice->command == NULL) {
-            argp_error(state, "no subcommand '%s'; there is: angles, hinge, stream, two-dof", argument);
+            argp_error(state, "no subcommand '%s'; there is: angles, center, chain, hinge, stream, two-dof", argument);
         }
         state->next = state->argc;
         return 0;
     }
     if (key == ARGP_KEY_NO_ARGS) {
-        argp_error(state, "which subcommand? There is: angles, hinge, stream, two-dof");
+        argp_error(state, "which subcommand? There is: angles, center, chain, hinge, stream, two-dof");
     }
     return ARGP_ERR_UNKNOWN;
 }
@@ -74,11 +78,13 @@ static error_t parse(int key, char *argument, struct argp_state *state)
 static const struct argp PARSER = {
     .parser = parse,
     .args_doc =
-        "angles RECORDING.csv --joint KIND [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]\n"
+        "angles RECORDING.csv --joint KIND [OPTION...]\ncenter RECORDING.csv [OPTION...]\nchain RECORDING.csv [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]\n"
         "two-dof RECORDING.csv [OPTION...]",
     .doc = "Finds out how the IMUs of a recording sit on the two sides of a joint.\v"
            "Subcommands:\n"
            "  angles   the angles of a joint, from these axes\n"
+           "  center   where both sensors sit relative to the centre of a joint\n"
+           "  chain    the same for hip and knee together, three sensors\n"
            "  hinge    both axes of a joint with one axis, like a knee or a finger joint\n"
            "  stream   plays a recording to a hub and writes what the hub finds\n"
            "  two-dof  both axes of a joint with two axes, like elbow and forearm, and the heading offset\n"

@@ -16,6 +16,18 @@ int option_one_of_two(struct argp_state *state, const char *option, const char *
     return strcmp(word, first) != 0;
 }
 
+int option_one_of_three(struct argp_state *state, const char *option, const char *word,
+                        const char *const names[static 3])
+{
+    for (int k = 0; k < 3; k++) {
+        if (strcmp(word, names[k]) == 0) {
+            return k;
+        }
+    }
+    argp_error(state, "--%s: '%s' is neither %s, %s nor %s", option, word, names[0], names[1], names[2]);
+    return 0;
+}
+
 int64_t option_duration(struct argp_state *state, const char *option, const char *text)
 {
     int64_t us = 0;
@@ -34,11 +46,20 @@ float option_positive(struct argp_state *state, const char *option, const char *
     return value;
 }
 
-uint16_t option_sample_count(struct argp_state *state, const char *text, int most)
+float option_not_negative(struct argp_state *state, const char *option, const char *text)
+{
+    float value = 0.0f;
+    if (number_to_float(text, &value) != NUMBER_FINITE || value < 0.0f) {
+        argp_error(state, "--%s: '%s' is not a number of at least 0", option, text);
+    }
+    return value;
+}
+
+uint16_t option_sample_count(struct argp_state *state, const char *text, int least, int most)
 {
     const float value = option_positive(state, "n-max", text);
     if (value > 65535.0f || floorf(value) != value) {
-        argp_error(state, "--n-max: '%s' is not a whole number from 20 to %d", text, most);
+        argp_error(state, "--n-max: '%s' is not a whole number from %d to %d", text, least, most);
     }
     return (uint16_t)value;
 }

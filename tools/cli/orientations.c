@@ -48,8 +48,11 @@ static int64_t usual_step_us(const recording_row_t *rows, size_t count)
 static bool start_filters(orientations_t *self)
 {
     const float period_s = 1e-6f * (float)self->period_us;
-    return jcal_vqf_init(&self->filters[0].vqf, period_s, period_s) == JCAL_OK &&
-           jcal_vqf_init(&self->filters[1].vqf, period_s, period_s) == JCAL_OK;
+    bool started = true;
+    for (int k = 0; k < ORIENTATIONS_SENSORS; k++) {
+        started = started && jcal_vqf_init(&self->filters[k].vqf, period_s, period_s) == JCAL_OK;
+    }
+    return started;
 }
 
 static jcal_vec3_t between(jcal_vec3_t from, jcal_vec3_t to, float share)
@@ -91,6 +94,9 @@ static void feed_row(orientations_t *self, const recording_row_t *row)
     }
     feed(&self->filters[0], &row->imu1, steps, scale);
     feed(&self->filters[1], &row->imu2, steps, scale);
+    if (self->recording->want_third) {
+        feed(&self->filters[2], &row->imu3, steps, scale);
+    }
     self->has_fed = true;
     self->fed_us = row->t_us;
 }
@@ -104,12 +110,18 @@ static void filter_row(orientations_t *self, oriented_row_t *out)
         pair.imu1.gyr_rad_s.x = NAN;
     }
     out->reject = jcal_gate_check(&self->gate, &self->gate_config, &pair);
+    if (self->recording->want_third) {
+        const jcal_pair_t other = {pair.t_us, pair.imu1, row->imu3};
+        const jcal_reject_t third = jcal_gate_check(&self->gate3, &self->gate_config, &other);
+        out->reject = (third < out->reject) ? third : out->reject;
+    }
     const bool is_fed = out->reject == JCAL_REJECT_NONE || out->reject == JCAL_REJECT_SATURATED ||
                         out->reject == JCAL_REJECT_REPEATED || out->reject == JCAL_REJECT_GAP;
     if (is_fed) {
         feed_row(self, row);
         row->q1 = self->filters[0].q;
         row->q2 = self->filters[1].q;
+        row->q3 = self->filters[2].q;
     }
     out->restarted = self->restart_due && out->reject == JCAL_REJECT_NONE;
     self->restart_due = self->restart_due && !out->restarted;
@@ -117,7 +129,7 @@ static void filter_row(orientations_t *self, oriented_row_t *out)
 
 static recording_event_t open_filters(orientations_t *self)
 {
-    self->filters = calloc(2, sizeof *self->filters);
+    self->filters = calloc(ORIENTATIONS_SENSORS, sizeof *self->filters);
     return (self->filters != NULL) ? RECORDING_ROW : RECORDING_FAILED;
 }
 
@@ -179,8 +191,8 @@ static bool finite_quat(jcal_quat_t q)
 static void check_row(oriented_row_t *out)
 {
     const recording_row_t *row = &out->row;
-    const bool finite = row->has_time && finite_imu(&row->imu1) && finite_imu(&row->imu2) && finite_quat(row->q1) &&
-                        finite_quat(row->q2);
+    const bool finite = row->has_time && finite_imu(&row->imu1) && finite_imu(&row->imu2) && finite_imu(&row->imu3) &&
+                        finite_quat(row->q1) && finite_quat(row->q2) && finite_quat(row->q3);
     out->reject = finite ? JCAL_REJECT_NONE : JCAL_REJECT_NOT_FINITE;
 }
 
@@ -190,6 +202,7 @@ recording_event_t orientations_open(orientations_t *self, recording_t *recording
     self->recording = recording;
     self->gate_config = jcal_gate_config_default();
     jcal_gate_init(&self->gate);
+    jcal_gate_init(&self->gate3);
     const recording_event_t event = recording_check_orientations(recording);
     if (event != RECORDING_ROW) {
         return event;
@@ -232,7 +245,14 @@ recording_event_t orientations_next(orientations_t *self, oriented_row_t *row)
 
 jcal_reason_t orientations_complaint(const orientations_t *self)
 {
-    return jcal_gate_complaint(&self->gate);
+    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
+    return (complaint != JCAL_REASON_NONE) ? complaint : jcal_gate_complaint(&self->gate3);
+}
+
+const char *orientations_words(const orientations_t *self)
+{
+    return (self->source == ORIENTATIONS_FROM_COLUMNS) ? "columns q1_w ... q2_z of the recording"
+                                                       : "computed from rates and specific forces by VQF";
 }
 
 void orientations_close(orientations_t *self)

@@ -25,6 +25,9 @@
 /// Rows that are waited for to learn the sample period.
 #define ORIENTATIONS_WAIT 50
 
+/// Most sensors of a recording.
+#define ORIENTATIONS_SENSORS 3
+
 /// Where orientations come from.
 typedef enum { ORIENTATIONS_FROM_COLUMNS, ORIENTATIONS_FROM_FILTER } orientations_source_t;
 
@@ -43,8 +46,9 @@ typedef struct {
 
     /* Private. */
     recording_t *recording;
-    orientations_filter_t *filters; /* two, or null */
+    orientations_filter_t *filters; /* one for each sensor, or null */
     jcal_gate_t gate;
+    jcal_gate_t gate3; /* of sensors 1 and 3, if there are three */
     jcal_gate_config_t gate_config;
     row_clock_t clock;
     int64_t period_us;
@@ -67,6 +71,9 @@ recording_event_t orientations_next(orientations_t *self, oriented_row_t *row);
 
 /// What is wrong with the readings as a whole, as the library's gate has it; JCAL_REASON_NONE for orientations from columns.
 jcal_reason_t orientations_complaint(const orientations_t *self);
+
+/// Where the orientations come from, in words.
+const char *orientations_words(const orientations_t *self);
 
 /// Releases memory.
 void orientations_close(orientations_t *self);

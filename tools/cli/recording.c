@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* A recording of two IMUs as CSV. */
+/* A recording of two or three IMUs as CSV. */
 #include "recording.h"
 
 #include "number.h"
@@ -9,11 +9,14 @@
 #include <stdio.h>
 #include <string.h>
 
-#define ALL_COLUMNS (RECORDING_COLUMNS + RECORDING_ORIENTATION_COLUMNS)
+#define ALL_COLUMNS RECORDING_ALL_COLUMNS
+#define FIRST_THIRD (RECORDING_COLUMNS + RECORDING_ORIENTATION_COLUMNS)
+#define FIRST_THIRD_ORIENTATION (FIRST_THIRD + RECORDING_THIRD_COLUMNS)
 
 static const char *const COLUMN_NAMES[ALL_COLUMNS] = {
     "t_s",    "gyr1_x", "gyr1_y", "gyr1_z", "acc1_x", "acc1_y", "acc1_z", "gyr2_x", "gyr2_y", "gyr2_z", "acc2_x",
-    "acc2_y", "acc2_z", "q1_w",   "q1_x",   "q1_y",   "q1_z",   "q2_w",   "q2_x",   "q2_y",   "q2_z"};
+    "acc2_y", "acc2_z", "q1_w",   "q1_x",   "q1_y",   "q1_z",   "q2_w",   "q2_x",   "q2_y",   "q2_z",   "gyr3_x",
+    "gyr3_y", "gyr3_z", "acc3_x", "acc3_y", "acc3_z", "q3_w",   "q3_x",   "q3_y",   "q3_z"};
 
 __attribute__((format(printf, 4, 5))) static recording_event_t bad(recording_t *recording, uint64_t line,
                                                                    uint64_t column, const char *format, ...)
@@ -58,14 +61,14 @@ static size_t column_named(const char *name)
     return k;
 }
 
-/* Names every column that is missing. */
-static recording_event_t check_missing(recording_t *recording, const bool found[ALL_COLUMNS])
+/* Names every column that is missing, of those from `first` to before `end`. */
+static recording_event_t check_missing(recording_t *recording, size_t first_column, size_t end)
 {
-    char names[160] = "";
+    char names[192] = "";
     size_t length = 0;
     size_t count = 0;
-    for (size_t k = 0; k < RECORDING_COLUMNS; k++) {
-        if (!found[k]) {
+    for (size_t k = first_column; k < end; k++) {
+        if (!recording->found[k]) {
             /* All names together are shorter than the buffer. */
             length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", (count == 0) ? "" : ", ",
                                        COLUMN_NAMES[k]);
@@ -82,6 +85,15 @@ static recording_event_t check_missing(recording_t *recording, const bool found[
                other_separator ? " (cells must be separated by commas)" : "");
 }
 
+static bool all_found(const recording_t *recording, size_t first, size_t end)
+{
+    bool all = true;
+    for (size_t k = first; k < end; k++) {
+        all = all && recording->found[k];
+    }
+    return all;
+}
+
 static recording_event_t read_header(recording_t *recording)
 {
     const csv_event_t event = csv_next(&recording->csv);
@@ -91,7 +103,7 @@ static recording_event_t read_header(recording_t *recording)
     if (event != CSV_ROW) {
         return csv_trouble(recording, event);
     }
-    bool found[ALL_COLUMNS] = {false};
+    bool *const found = recording->found;
     recording->header_cells = recording->csv.cell_count;
     for (size_t k = 0; k < recording->header_cells; k++) {
         const csv_cell_t *cell = &recording->csv.cells[k];
@@ -105,12 +117,16 @@ static recording_event_t read_header(recording_t *recording)
         found[column] = true;
         recording->index[column] = k;
     }
-    recording->has_orientations = true;
-    for (size_t k = RECORDING_COLUMNS; k < ALL_COLUMNS; k++) {
-        recording->has_orientations = recording->has_orientations && found[k];
-        recording->found_orientations |= found[k] ? (1u << (k - RECORDING_COLUMNS)) : 0u;
-    }
-    return check_missing(recording, found);
+    recording->has_orientations = all_found(recording, RECORDING_COLUMNS, FIRST_THIRD);
+    return check_missing(recording, 0, RECORDING_COLUMNS);
+}
+
+recording_event_t recording_want_third(recording_t *recording)
+{
+    recording->want_third = true;
+    recording->has_orientations =
+        recording->has_orientations && all_found(recording, FIRST_THIRD_ORIENTATION, ALL_COLUMNS);
+    return check_missing(recording, FIRST_THIRD, FIRST_THIRD_ORIENTATION);
 }
 
 /* As many cells as the header has; more only if they are empty: many programs write a comma at the end of a line. */
@@ -148,11 +164,6 @@ recording_event_t recording_open(recording_t *recording, csv_read_t *read, void 
     return read_header(recording);
 }
 
-static bool found_orientation(const recording_t *recording, size_t column)
-{
-    return (recording->found_orientations >> (column - RECORDING_COLUMNS) & 1u) != 0u;
-}
-
 /* Names the columns of one sensor's orientation that are missing, at the leftmost one that is there. */
 static recording_event_t part_missing(recording_t *recording, size_t first)
 {
@@ -160,7 +171,7 @@ static recording_event_t part_missing(recording_t *recording, size_t first)
     size_t length = 0;
     size_t leftmost = recording->header_cells;
     for (size_t k = first; k < first + 4; k++) {
-        if (!found_orientation(recording, k)) {
+        if (!recording->found[k]) {
             length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", (length == 0) ? "" : ", ",
                                        COLUMN_NAMES[k]);
         } else if (recording->index[k] < leftmost) {
@@ -174,10 +185,16 @@ static recording_event_t part_missing(recording_t *recording, size_t first)
 
 recording_event_t recording_check_orientations(recording_t *recording)
 {
-    for (size_t sensor = 0; sensor < 2; sensor++) {
-        const unsigned found = (recording->found_orientations >> (4 * sensor)) & 15u;
-        if (found != 0u && found != 15u) {
-            return part_missing(recording, RECORDING_COLUMNS + 4 * sensor);
+    const size_t firsts[] = {RECORDING_COLUMNS, RECORDING_COLUMNS + 4, FIRST_THIRD_ORIENTATION};
+    const size_t sensors = recording->want_third ? 3 : 2;
+    for (size_t sensor = 0; sensor < sensors; sensor++) {
+        const size_t first = firsts[sensor];
+        size_t count = 0;
+        for (size_t k = first; k < first + 4; k++) {
+            count += recording->found[k] ? 1 : 0;
+        }
+        if (count != 0 && count != 4) {
+            return part_missing(recording, first);
         }
     }
     return RECORDING_ROW;
@@ -192,6 +209,18 @@ recording_event_t recording_refuse(recording_t *recording, const char *format, .
     (void)vsnprintf(recording->fault.text, sizeof recording->fault.text, format, arguments);
     va_end(arguments);
     return RECORDING_BAD;
+}
+
+/* Columns that nobody asked for may hold anything. */
+static bool is_wanted(const recording_t *recording, size_t column)
+{
+    if (column < RECORDING_COLUMNS) {
+        return true;
+    }
+    if (column < FIRST_THIRD) {
+        return recording->want_orientations;
+    }
+    return recording->want_third && (column < FIRST_THIRD_ORIENTATION || recording->want_orientations);
 }
 
 recording_event_t recording_next(recording_t *recording, recording_row_t *row)
@@ -214,9 +243,9 @@ recording_event_t recording_next(recording_t *recording, recording_row_t *row)
     }
     row->has_time = time == NUMBER_FINITE;
     float values[ALL_COLUMNS] = {0.0f};
-    const size_t count = recording->want_orientations ? ALL_COLUMNS : RECORDING_COLUMNS;
-    for (size_t k = 1; k < count; k++) {
-        if (number_to_float(cells[recording->index[k]].text, &values[k]) == NUMBER_NOT_A_NUMBER) {
+    for (size_t k = 1; k < ALL_COLUMNS; k++) {
+        if (is_wanted(recording, k) &&
+            number_to_float(cells[recording->index[k]].text, &values[k]) == NUMBER_NOT_A_NUMBER) {
             return not_a_number(recording, k);
         }
     }
@@ -225,6 +254,8 @@ recording_event_t recording_next(recording_t *recording, recording_row_t *row)
     /* Without orientations these are zero, which is no quaternion either. */
     row->q1 = (jcal_quat_t){values[13], values[14], values[15], values[16]};
     row->q2 = (jcal_quat_t){values[17], values[18], values[19], values[20]};
+    row->imu3 = (jcal_imu_t){{values[21], values[22], values[23]}, {values[24], values[25], values[26]}};
+    row->q3 = (jcal_quat_t){values[27], values[28], values[29], values[30]};
     return RECORDING_ROW;
 }
 

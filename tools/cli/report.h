@@ -20,6 +20,10 @@ typedef struct {
     const char *ambiguous;   ///< What it means that another minimum fits as well.
     const char *move_joint;  ///< How to move the joint.
     const char *asked_for;   ///< What must be known to within the bound: "both axes".
+    const char *bounded;     ///< What the two bounds of an event are of: "axes".
+    const char *unit;        ///< Of bounds as a person reads them ...
+    float per_unit;          ///< ... and how many of it make a rad or a metre.
+    float unknown;           ///< Bounds from here on say nothing, rad or m.
 } report_words_t;
 
 /// What the results of all joints have in common; see the result of any.
@@ -29,9 +33,9 @@ typedef struct {
     jcal_weak_t weak;
     jcal_hint_t hint;
     jcal_reason_t reason;
-    bool has_axes;
-    jcal_vec3_t axis1, axis2;
-    float uncertainty1_rad, uncertainty2_rad;
+    bool has_estimate;
+    jcal_vec3_t axis1, axis2;  ///< Of joints that have axes.
+    float bound1, bound2;      ///< 95 % bounds of both axes, rad, or of both places, m.
     uint32_t samples;
     uint32_t rejected;
     uint32_t rejected_by[JCAL_REJECT_COUNT];
@@ -44,11 +48,14 @@ typedef struct {
     row_clock_t clock;
     bool was_ready;    ///< Ready was entered at least once.
     int64_t ready_us;  ///< When it was entered first, as in the file.
-    float max_bound_rad;
+    float max_bound;   ///< What the bounds must be below, rad or m.
 } report_t;
 
-/// Begins a line of JSON: the keys from `event` to `uncertainty_deg`. `event` is estimate, ready, moved or end.
+/// Begins a line of JSON: the keys from `event` to `reason`. `event` is estimate, ready, moved or end.
 json_t report_json_begin(FILE *file, const char *event, const report_t *report);
+
+/// Goes on with the keys `axis1`, `axis2` and `uncertainty_deg`.
+void report_json_axes(json_t *json, const finding_t *finding);
 
 /// Ends it with the counters.
 void report_json_end(json_t *json, const finding_t *finding);
@@ -59,8 +66,11 @@ void report_print_event(FILE *file, const char *event, const report_t *report);
 /// A labelled line of the summary, or nothing if there are no words.
 void report_print_words(FILE *file, const char *label, const char *words);
 
-/// Beginning of the summary: status and axes.
+/// Beginning of the summary: status.
 void report_print_head(FILE *file, const report_t *report);
+
+/// Both axes and their bounds.
+void report_print_axes(FILE *file, const report_t *report);
 
 /// Middle of the summary: what was asked for, what is missing, and the counters.
 void report_print_state(FILE *file, const report_t *report);

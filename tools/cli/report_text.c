@@ -5,9 +5,10 @@
 
 #include <inttypes.h>
 
-static double degrees(float rad)
+/* A bound in the unit that a person reads. */
+static double readable(const report_t *report, float bound)
 {
-    return (double)(DEG_PER_RAD * rad);
+    return (double)(report->words->per_unit * bound);
 }
 
 static const char *status_words(jcal_calibration_t status)
@@ -25,6 +26,23 @@ static const char *status_words(jcal_calibration_t status)
     }
 }
 
+static const char *uncertain_words(jcal_weak_t weak)
+{
+    switch (weak) {
+    case JCAL_WEAK_HEADING:
+        return "the heading is not known well enough";
+    case JCAL_WEAK_CENTER1:
+    case JCAL_WEAK_CENTER2:
+        return "the joint centre is not known well enough";
+    case JCAL_WEAK_NONE:
+    case JCAL_WEAK_AXIS1:
+    case JCAL_WEAK_AXIS2:
+    case JCAL_WEAK_SIGN:
+    default:
+        return "an axis is not known well enough";
+    }
+}
+
 static const char *reason_words(const report_t *report)
 {
     switch (report->finding.reason) {
@@ -33,8 +51,7 @@ static const char *reason_words(const report_t *report)
     case JCAL_REASON_NO_MOTION:
         return "the segments hardly turn against each other";
     case JCAL_REASON_UNCERTAIN:
-        return report->finding.weak == JCAL_WEAK_HEADING ? "the heading is not known well enough"
-                                                         : "an axis is not known well enough";
+        return uncertain_words(report->finding.weak);
     case JCAL_REASON_SIGN_OPEN:
         return "both sign pairings explain the data about equally";
     case JCAL_REASON_OTHER_MINIMUM:
@@ -66,6 +83,8 @@ static const char *hint_words(const report_t *report)
         return "tilt the joint axis out of the horizontal";
     case JCAL_HINT_CHECK_SENSORS:
         return "check units, range, mounting and pairing of the sensors; more motion will not help";
+    case JCAL_HINT_MORE_DIRECTIONS:
+        return "turn both segments about other axes too; the axis of a hinge always stays open, see --calibration";
     case JCAL_HINT_NONE:
     default:
         return NULL;
@@ -83,6 +102,10 @@ static const char *weak_words(jcal_weak_t weak)
         return "sign pairing";
     case JCAL_WEAK_HEADING:
         return "heading offset of the two orientations";
+    case JCAL_WEAK_CENTER1:
+        return "joint centre seen from sensor 1";
+    case JCAL_WEAK_CENTER2:
+        return "joint centre seen from sensor 2";
     case JCAL_WEAK_NONE:
     default:
         return NULL;
@@ -127,7 +150,7 @@ static void print_axis(FILE *file, const char *label, bool known, jcal_vec3_t ax
     }
     (void)fprintf(file, "  %-18s %8.4f %8.4f %8.4f   ", label, (double)axis.x, (double)axis.y, (double)axis.z);
     if (bound_rad < BOUND_UNKNOWN_RAD) {
-        (void)fprintf(file, "to within %.1f deg\n", degrees(bound_rad));
+        (void)fprintf(file, "to within %.1f deg\n", (double)(DEG_PER_RAD * bound_rad));
     } else {
         (void)fputs("uncertainty unknown\n", file);
     }
@@ -164,10 +187,10 @@ void report_print_event(FILE *file, const char *event, const report_t *report)
     char buffer[32];
     (void)fprintf(file, "%10s s  %-8s %-10s", report->clock.has_time ? time_text(report->clock.t_us, buffer) : "?",
                   event, jcal_calibration_string(finding->status));
-    if (finding->has_axes && finding->uncertainty1_rad < BOUND_UNKNOWN_RAD &&
-        finding->uncertainty2_rad < BOUND_UNKNOWN_RAD) {
-        (void)fprintf(file, "  axes to within %.1f and %.1f deg", degrees(finding->uncertainty1_rad),
-                      degrees(finding->uncertainty2_rad));
+    const report_words_t *words = report->words;
+    if (finding->has_estimate && finding->bound1 < words->unknown && finding->bound2 < words->unknown) {
+        (void)fprintf(file, "  %s to within %.1f and %.1f %s", words->bounded, readable(report, finding->bound1),
+                      readable(report, finding->bound2), words->unit);
     }
     const char *reason = reason_words(report);
     (void)fprintf(file, "%s%s\n", (reason != NULL) ? "  " : "", (reason != NULL) ? reason : "");
@@ -179,15 +202,20 @@ void report_print_head(FILE *file, const report_t *report)
     (void)fprintf(file, "%s, %s engine: %s\n", report->words->name, jcal_engine_string(finding->engine),
                   status_words(finding->status));
     report_print_words(file, "why", reason_words(report));
-    print_axis(file, "axis in sensor 1", finding->has_axes, finding->axis1, finding->uncertainty1_rad);
-    print_axis(file, "axis in sensor 2", finding->has_axes, finding->axis2, finding->uncertainty2_rad);
+}
+
+void report_print_axes(FILE *file, const report_t *report)
+{
+    const finding_t *finding = &report->finding;
+    print_axis(file, "axis in sensor 1", finding->has_estimate, finding->axis1, finding->bound1);
+    print_axis(file, "axis in sensor 2", finding->has_estimate, finding->axis2, finding->bound2);
 }
 
 void report_print_state(FILE *file, const report_t *report)
 {
     const finding_t *finding = &report->finding;
-    (void)fprintf(file, "  %-18s %s to within %.3g deg (95 %% confidence)\n", "asked for", report->words->asked_for,
-                  degrees(report->max_bound_rad));
+    (void)fprintf(file, "  %-18s %s to within %.3g %s (95 %% confidence)\n", "asked for", report->words->asked_for,
+                  readable(report, report->max_bound), report->words->unit);
     report_print_words(file, "weakest", weak_words(finding->weak));
     report_print_words(file, "what would help", hint_words(report));
     print_ready_time(file, report);

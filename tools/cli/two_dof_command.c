@@ -102,7 +102,7 @@ static void write_json(const void *self, FILE *file, const char *event, const re
 static void print_summary(const void *self, FILE *file, const report_t *report)
 {
     const two_dof_run_t *run = self;
-    two_dof_print_summary(file, report, &run->result, run->orientations.source);
+    two_dof_print_summary(file, report, &run->result, orientations_words(&run->orientations));
 }
 
 static void close_recording(void *self)

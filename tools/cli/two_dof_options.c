@@ -132,7 +132,7 @@ static error_t parse_values(int key, char *argument, struct argp_state *state)
         engine->kind = (jcal_engine_t)option_one_of_two(state, "engine", argument, "stream", "window");
         return 0;
     case KEY_N_MAX:
-        engine->config.n_max = option_sample_count(state, argument, 1000);
+        engine->config.n_max = option_sample_count(state, argument, 20, 1000);
         parse->has_n_max = true;
         return 0;
     case KEY_WINDOW:

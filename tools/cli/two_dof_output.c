@@ -10,6 +10,10 @@ const report_words_t TWO_DOF_WORDS = {
     .ambiguous = "other axes or headings explain the data about equally",
     .move_joint = "move the joint about both axes, in all combinations",
     .asked_for = "both axes and the heading",
+    .bounded = "axes",
+    .unit = "deg",
+    .per_unit = DEG_PER_RAD,
+    .unknown = BOUND_UNKNOWN_RAD,
 };
 
 finding_t two_dof_finding(const jcal_two_dof_result_t *result)
@@ -19,11 +23,11 @@ finding_t two_dof_finding(const jcal_two_dof_result_t *result)
                        .weak = result->weak,
                        .hint = result->hint,
                        .reason = result->reason,
-                       .has_axes = result->has_axes,
+                       .has_estimate = result->has_axes,
                        .axis1 = result->axis1,
                        .axis2 = result->axis2,
-                       .uncertainty1_rad = result->uncertainty1_rad,
-                       .uncertainty2_rad = result->uncertainty2_rad};
+                       .bound1 = result->uncertainty1_rad,
+                       .bound2 = result->uncertainty2_rad};
 }
 
 /* In (-180, 180]: rounding may lead past the ends. */
@@ -43,9 +47,13 @@ void two_dof_write_json(FILE *file, const char *event, const report_t *report, c
     const bool known = result->has_axes;
     const float bound_deg = DEG_PER_RAD * result->uncertainty_heading_rad;
     json_t json = report_json_begin(file, event, report);
+    report_json_axes(&json, &report->finding);
     json_number(&json, "heading_offset_deg", known ? heading_deg(result->heading_offset_rad) : NAN);
     json_number(&json, "uncertainty_heading_deg", heading_bounded(result) ? bound_deg : NAN);
     json_number(&json, "carrying_angle_deg", known ? DEG_PER_RAD * result->carrying_angle_rad : NAN);
+    if (result->engine == JCAL_ENGINE_WINDOW) {
+        json_word(&json, "paper_accepted", NULL); /* Laidig et al. have no such test */
+    }
     report_json_end(&json, &report->finding);
 }
 
@@ -61,18 +69,17 @@ static void print_heading(FILE *file, const jcal_two_dof_result_t *result)
 }
 
 void two_dof_print_summary(FILE *file, const report_t *report, const jcal_two_dof_result_t *result,
-                           orientations_source_t source)
+                           const char *orientations)
 {
     report_print_head(file, report);
+    report_print_axes(file, report);
     if (result->has_axes) {
         print_heading(file, result);
     } else {
         report_print_words(file, "heading offset", "unknown");
         report_print_words(file, "carrying angle", "unknown");
     }
-    report_print_words(file, "orientations",
-                       (source == ORIENTATIONS_FROM_COLUMNS) ? "columns q1_w ... q2_z of the recording"
-                                                             : "computed from rates and specific forces by VQF");
+    report_print_words(file, "orientations", orientations);
     report_print_state(file, report);
     report_print_exit(file, report);
 }

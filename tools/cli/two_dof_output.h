@@ -4,7 +4,6 @@
 #ifndef JCAL_CLI_TWO_DOF_OUTPUT_H
 #define JCAL_CLI_TWO_DOF_OUTPUT_H
 
-#include "orientations.h"
 #include "report.h"
 
 /// Words for a joint with two axes.
@@ -16,8 +15,8 @@ finding_t two_dof_finding(const jcal_two_dof_result_t *result);
 /// Writes one line of JSON; `event` is estimate, ready, moved or end. The finding is that of the result.
 void two_dof_write_json(FILE *file, const char *event, const report_t *report, const jcal_two_dof_result_t *result);
 
-/// The closing summary.
+/// The closing summary; `orientations` says where they come from.
 void two_dof_print_summary(FILE *file, const report_t *report, const jcal_two_dof_result_t *result,
-                           orientations_source_t source);
+                           const char *orientations);
 
 #endif

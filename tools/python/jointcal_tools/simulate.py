@@ -411,7 +411,7 @@ def simulate_sensor(spec: HingeSpec, index: int, w: np.ndarray, dw: np.ndarray, 
     rng = np.random.default_rng([spec.seed, 3, index])
     q_mount = random_unit(rng, 4)  # sensor to segment
     mount = rotation_matrix(q_mount)
-    given = (spec.r1, spec.r2)[index]
+    given = (spec.r1, spec.r2)[index] if index < 2 else None
     lever = random_unit(rng) * rng.uniform(*spec.lever_m)
     r = lever if given is None else np.array(given, float)
     bias_gyr = np.radians(spec.gyr_bias_deg_s) * random_unit(rng)

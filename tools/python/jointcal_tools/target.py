@@ -14,7 +14,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[3]
 PORT = ROOT / "port/cortex_m"
 WORK = ROOT / "build/target" / Path(sys.argv[0]).stem  # one per script, so that two may run at once
-COLUMNS = [f"{kind}{imu}_{axis}" for imu in "12" for kind in ("gyr", "acc") for axis in "xyz"]
+TWO_SENSORS, THREE_SENSORS = "12", "123"
 # For programs only: the library is built by CMake, which alone knows its flags.
 PROGRAM_FLAGS = ["-std=c99", "-Wall", "-Wextra", "-O2", "-DNDEBUG", "-ffunction-sections", "-fdata-sections"]
 QEMU_SECONDS = 300
@@ -56,21 +56,22 @@ def resampled(rows: list[list[float]], rate_hz: float, seconds: float) -> list[l
     return found
 
 
-def rows_of(recording: Path) -> list[list[float]]:
-    """Time and twelve readings of every row."""
+def rows_of(recording: Path, sensors: str = TWO_SENSORS) -> list[list[float]]:
+    """Time and the six readings of each sensor, of every row."""
+    columns = [f"{kind}{imu}_{axis}" for imu in sensors for kind in ("gyr", "acc") for axis in "xyz"]
     with open(recording, newline="", encoding="utf-8") as lines:
-        return [[float(row["t_s"])] + [float(row[column]) if row[column] else float("nan") for column in COLUMNS]
+        return [[float(row["t_s"])] + [float(row[column]) if row[column] else float("nan") for column in columns]
                 for row in csv.DictReader(line for line in lines if not line.startswith("#"))]
 
 
-def samples_file(recording: Path, rate_hz: float | None = None, seconds: float = 60.0) -> Path:
-    """The recording's samples as jcal_pair_t, in a folder of its own as samples.bin; with a rate, its beginning only."""
-    folder = WORK / "samples" / (recording.stem + (f"_{rate_hz:g}hz" if rate_hz else ""))
+def samples_file(recording: Path, rate_hz: float | None = None, seconds: float = 60.0, sensors: str = TWO_SENSORS) -> Path:
+    """The recording's samples as jcal_pair_t or jcal_triple_t, in a folder of its own as samples.bin; with a rate, its beginning only."""
+    folder = WORK / f"samples_{sensors}" / (recording.stem + (f"_{rate_hz:g}hz" if rate_hz else ""))
     folder.mkdir(parents=True, exist_ok=True)
-    rows = rows_of(recording)
+    rows = rows_of(recording, sensors)
     rows = resampled(rows, rate_hz, seconds) if rate_hz else rows
     part = folder / f"samples.{os.getpid()}"  # renamed when complete: another run may be reading
-    part.write_bytes(b"".join(struct.pack("<Q12f", round(row[0] * 1e6), *row[1:]) for row in rows))
+    part.write_bytes(b"".join(struct.pack(f"<Q{len(row) - 1}f", round(row[0] * 1e6), *row[1:]) for row in rows))
     return part.replace(folder / "samples.bin")
 
 
@@ -83,6 +84,11 @@ def vqf(rows: list[list[float]], sensor: int, period_s: float) -> list[tuple[flo
     if library.jcal_batch_vqf(values, ctypes.c_size_t(len(rows)), ctypes.c_float(period_s), out) != 0:
         raise RuntimeError("build/host was built without VQF: run tools/vqf.sh and build again")
     return [tuple(out[4 * k:4 * k + 4]) for k in range(len(rows))]
+
+
+def triples_file(recording: Path, rate_hz: float | None = None, seconds: float = 60.0) -> Path:
+    """As samples_file, of three sensors."""
+    return samples_file(recording, rate_hz, seconds, THREE_SENSORS)
 
 
 def orientations_file(recording: Path, rate_hz: float | None = None, seconds: float = 300.0) -> Path:

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Hip and knee together: where three sensors, on pelvis, thigh and shank, sit relative to both joint centres. Stream engine.
+///
+/// Primary source: [SAL15]. Each joint has a stream engine of center.h. What ties them together comes on top: both see the same
+/// accelerometer on the thigh, hip and knee are a fixed distance apart, which may be known, and (15b) of [SAL15] puts the thigh into
+/// the plane of the flexion axes. docs/METHOD_CENTER.md says what each of these buys.
+#ifndef JCAL_CHAIN_H
+#define JCAL_CHAIN_H
+
+#include "jointcal/center.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Simultaneous readings of the three IMUs: 1 pelvis, 2 thigh, 3 shank.
+typedef struct {
+    uint64_t t_us;  ///< Time in microseconds, any origin, strictly increasing.
+    jcal_imu_t imu1, imu2, imu3;
+} jcal_triple_t;
+
+/// Their orientations, each to an earth frame of its own.
+typedef struct {
+    jcal_quat_t q1, q2, q3;
+} jcal_triple_attitudes_t;
+
+/// The four vectors.
+typedef enum {
+    JCAL_CHAIN_HIP_TO_PELVIS = 0,  ///< From the hip's centre to sensor 1, in sensor frame 1.
+    JCAL_CHAIN_HIP_TO_THIGH = 1,   ///< From the hip's centre to sensor 2, in sensor frame 2.
+    JCAL_CHAIN_KNEE_TO_THIGH = 2,  ///< From the knee's centre to sensor 2, in sensor frame 2.
+    JCAL_CHAIN_KNEE_TO_SHANK = 3   ///< From the knee's centre to sensor 3, in sensor frame 3.
+} jcal_chain_place_t;
+#define JCAL_CHAIN_PLACES 4
+
+/// Settings. Start from jcal_chain_config_default().
+typedef struct {
+    jcal_center_config_t center;  ///< Of both joints; its hinge axes must be zero.
+    /// Distance of hip and knee, m, if it is known. Range 0 (default, unknown) or [0.05, 1].
+    float segment_length_m;
+    float segment_tolerance_m;  ///< Standard deviation of that. Range [1e-4, 0.1], default 0.005.
+    /// Unit vector in sensor frame 2 across the plane of both flexion axes, (14a) of [SAL15]: the thigh lies in it. Zero (default): none.
+    jcal_vec3_t plane_normal;
+    float
+        plane_tolerance_m;  ///< Standard deviation of that. Range [1e-4, 0.2], default 0.03: axes are known to 4 deg or so.
+    /// A knee that is a hinge: its axis in sensor frames 2 and 3, unit vectors; both zero (default) for other knees.
+    jcal_vec3_t knee_axis2;
+    jcal_vec3_t knee_axis3;
+} jcal_chain_config_t;
+
+typedef struct {
+    jcal_calibration_t status;
+    jcal_weak_t weak;      ///< JCAL_WEAK_CENTER1 the hip, JCAL_WEAK_CENTER2 the knee.
+    jcal_hint_t hint;      ///< The motion that would help that joint: segments 1 and 2 are its proximal and distal one.
+    jcal_reason_t reason;  ///< Why the status is not `ready`.
+    bool has_places;       ///< False until both joints have an estimate; then everything below is zero.
+    jcal_vec3_t place_m[JCAL_CHAIN_PLACES];  ///< By jcal_chain_place_t.
+    float uncertainty_m[JCAL_CHAIN_PLACES];  ///< 95 % bounds; JCAL_BOUND_UNKNOWN_M if unknown.
+    float segment_length_m;                  ///< Distance of hip and knee as estimated.
+    float uncertainty_segment_m;             ///< 95 % bound of that.
+    jcal_calibration_t joint_status[2];      ///< Of hip and knee, each by itself.
+    uint64_t t_us;                           ///< Time of the last sample that went into this result; 0 before any.
+    uint32_t samples;                        ///< Triples pushed.
+    uint32_t rejected;                       ///< Triples rejected by either joint, all causes.
+    uint32_t rejected_by[JCAL_REJECT_COUNT];
+} jcal_chain_result_t;
+
+/// Caller-owned, plain, copyable at any time between calls; all members are private.
+typedef struct {
+    jcal_chain_config_t cfg;
+    jcal_center_t hip;
+    jcal_center_t knee;
+    uint32_t samples;
+    uint32_t rejected_by[JCAL_REJECT_COUNT];
+} jcal_chain_t;
+
+/// The defaults described at each field.
+jcal_chain_config_t jcal_chain_config_default(void);
+
+/// Name of the first field that is out of its range, or null if the config is valid.
+const char *jcal_chain_config_check(const jcal_chain_config_t *config);
+
+/// Prepares an estimator; whatever `self` held before is lost.
+///
+/// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG (jcal_chain_config_check says which field); self untouched.
+JCAL_MUST_CHECK jcal_status_t jcal_chain_init(jcal_chain_t *self, const jcal_chain_config_t *config);
+
+/// Takes in one sample of all three. `attitudes` may be null unless the method is JCAL_CENTER_LS.
+///
+/// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL.
+jcal_status_t jcal_chain_push(jcal_chain_t *self, const jcal_triple_t *triple,
+                              const jcal_triple_attitudes_t *attitudes);
+
+/// Works off one sample of each joint and a bounded slice of solving for each.
+///
+/// Returns:  JCAL_OK; JCAL_IDLE if there was nothing; JCAL_ERR_ARG.
+jcal_status_t jcal_chain_step(jcal_chain_t *self);
+
+/// Ties both joints together and says what is known. Errors: JCAL_ERR_ARG.
+///
+/// Cost:     about 4000 multiply-adds; stack about 1.4 KiB.
+jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out);
+
+/// Forgets all data, keeps the config. Errors: JCAL_ERR_ARG.
+jcal_status_t jcal_chain_reset(jcal_chain_t *self);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* JCAL_CHAIN_H */

@@ -1,0 +1,355 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Bounds and status of the joint centre. See center_judge.h.
+#include "calib/center_judge.h"
+
+#include "calib/center_sums.h"
+#include "jointcal/vec3.h"
+#include "math/chol.h"
+#include "math/eig.h"
+#include "math/scalar.h"
+#include "math/sym.h"
+
+#include <float.h>
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+#define N JCAL_CENTER_UNKNOWNS
+
+/// 95 % of a Gaussian along a line.
+#define NORMAL_95 1.96f
+
+/// The share of what remains unexplained and lasts that may have shifted the estimate.
+#define HIDDEN_SHARE 0.65f
+/// With more smoothing than this, s, samples that share no reading are so far apart that what lasts between them says little: all of
+/// what remains may last then, and in proportion, as smoothing takes more of what remains than of the shift.
+#define HIDDEN_S 0.125f
+
+/// Blocks from which the scatter says something, and what is taken from their number.
+#define BLOCKS_MIN 8.0f
+#define BLOCKS_LOST 4.0f
+
+/// Rows are wrong by this share of their length: misaligned gyroscopes, play of the joint. That much information in a direction is
+/// none. Perfect hinges leave their axis entirely open; on real ones it looks known to 0.055 to 0.12 of what the rows hold in all,
+/// against 0.2 to 0.5 of the worst direction of other joints.
+#define ROW_ERROR 0.08f
+/// More than this share of a direction's information being none leaves it open.
+#define FAKE_SHARE_MAX 0.8f
+/// A doubtful direction within 18 deg of a known hinge axis is that axis.
+#define ALONG_COSINE2 0.9f
+/// Steps of the power iteration in each judgement; it goes on from the last one.
+#define POWER_STEPS 4u
+
+/// Residuals, squared, are never taken for less than this share of what the config calls usual.
+#define EXCESS_MIN 0.3f
+
+/// Judgements in a row that found nothing missing.
+#define AGREED_MIN 3u
+/// A bound may grow by this before ready is lost.
+#define HYSTERESIS 1.2f
+
+/// Mean squared rates below this are no motion to speak of, (rad/s)^2.
+#define TURN_MIN 0.1f
+
+/// Residuals, squared, over what the config calls usual.
+static float excess_of(const jcal_center_sums_t *sums)
+{
+    return jcal_max(sums->cost / jcal_max(sums->noise, FLT_MIN), EXCESS_MIN);
+}
+
+static bool factor(const jcal_center_config_t *cfg, jcal_center_work_t *self)
+{
+    jcal_center_inverse_t *const inverse = &self->as.inverse;
+    float prior[N];
+    jcal_center_prior(&self->sums, cfg, prior);
+    (void)memcpy(inverse->factor, self->sums.matrix, sizeof inverse->factor);
+    for (size_t i = 0u; i < N; ++i) {
+        inverse->factor[jcal_sym_at(i, i)] += prior[i];
+    }
+    return jcal_chol_factor_damped(inverse->factor, N, 0.0f, inverse->scale) == JCAL_OK;
+}
+
+static void column(jcal_center_inverse_t *inverse, size_t which)
+{
+    float *const x = inverse->columns[which];
+    (void)memset(x, 0, sizeof inverse->columns[which]);
+    x[which] = 1.0f;
+    jcal_chol_solve_scaled(inverse->factor, N, inverse->scale, x);
+}
+
+/// One row of the covariances of r1 (rows 0 to 2) or r2 (3 to 5).
+static void covariance(const jcal_center_config_t *cfg, jcal_center_work_t *self, size_t row)
+{
+    jcal_center_inverse_t *const inverse = &self->as.inverse;
+    const jcal_center_sums_t *const sums = &self->sums;
+    const float excess = excess_of(sums);
+    const float own = jcal_center_excess(sums); /* of the prior, which is multiplied by it once */
+    const float counted = jcal_max(sums->blocks - BLOCKS_LOST, 1.0f) * JCAL_CENTER_BLOCK_S;
+    const float few = jcal_max(sums->time_s / counted, 1.0f);
+    const size_t sensor = row / 3u;
+    const size_t i = row % 3u;
+    const float *const x = inverse->columns[row];
+    float prior[N];
+    float spread[N]; /* S x */
+    jcal_center_prior(&self->sums, cfg, prior);
+    jcal_sym_times(sums->scatter, N, x, spread);
+    for (size_t j = 0u; j <= i; ++j) {
+        const float *const y = inverse->columns[(3u * sensor) + j];
+        float from_scatter = 0.0f;
+        float from_prior = 0.0f;
+        for (size_t k = 0u; k < N; ++k) {
+            from_scatter += spread[k] * y[k];
+            from_prior += prior[k] * x[k] * y[k];
+        }
+        const size_t at = jcal_sym_at(i, j);
+        inverse->covariance[sensor][at] = (few * from_scatter) + (own * from_prior);
+        inverse->least[sensor][at] = (excess * (x[(3u * sensor) + j] - from_prior)) + (own * from_prior);
+    }
+}
+
+/// Takes the part along a unit vector out of a packed 3 x 3 covariance: C <- Q C Q, Q = I - n n'. A zero vector leaves it.
+static void across(float *c, jcal_vec3_t n)
+{
+    const float q[9] = {1.0f - (n.x * n.x), -n.x * n.y, -n.x * n.z, -n.x * n.y,        1.0f - (n.y * n.y),
+                        -n.y * n.z,         -n.x * n.z, -n.y * n.z, 1.0f - (n.z * n.z)};
+    float out[6];
+    jcal_sym_congruence(c, 3u, q, 3u, out);
+    (void)memcpy(c, out, sizeof out);
+}
+
+/// 95 % radius of a Gaussian with covariance c (3 x 3, packed).
+static float radius(const float *c)
+{
+    const float trace = c[0] + c[2] + c[5];
+    const float squares =
+        (c[0] * c[0]) + (c[2] * c[2]) + (c[5] * c[5]) + (2.0f * ((c[1] * c[1]) + (c[3] * c[3]) + (c[4] * c[4])));
+    return sqrtf(jcal_max(trace + (2.0f * sqrtf(2.0f * squares)), 0.0f));
+}
+
+float jcal_center_radius_across(float *c, jcal_vec3_t axis)
+{
+    across(c, axis);
+    return radius(c);
+}
+
+static jcal_center_bounds_t unknown_bounds(void)
+{
+    const jcal_center_bounds_t b = {
+        JCAL_BOUND_UNKNOWN_M, JCAL_BOUND_UNKNOWN_M, JCAL_BOUND_UNKNOWN_M, {0.0f, 0.0f, 0.0f}};
+    return b;
+}
+
+static float bound(float radius_m, float hidden_m, float mismatch_m)
+{
+    return jcal_min(mismatch_m + sqrtf((radius_m * radius_m) + (hidden_m * hidden_m)), JCAL_BOUND_UNKNOWN_M);
+}
+
+/// Root of the information that wrong rows make of the vector of one sensor (0 or 1).
+static float wrong_row(const jcal_center_sums_t *sums, size_t sensor)
+{
+    float power = 0.0f;
+    for (size_t k = 3u * sensor; k < ((3u * sensor) + 3u); ++k) {
+        power += sums->matrix[jcal_sym_at(k, k)];
+    }
+    return ROW_ERROR * sqrtf(jcal_max(power, 1.0f));
+}
+
+/// Finds the direction of (r1, r2) of whose information the largest share may come from wrong rows, W = D V D with V the covariance by
+/// the matrix alone and D D the information that wrong rows make. V holds share y y', y = D^-1 z.
+static void find_fake(jcal_center_work_t *self)
+{
+    jcal_center_inverse_t *const inverse = &self->as.inverse;
+    float d[2];
+    for (size_t i = 0u; i < 2u; ++i) {
+        d[i] = wrong_row(&self->sums, i);
+    }
+    float *const z = inverse->fake;
+    for (unsigned step = 0u; step < POWER_STEPS; ++step) {
+        float on[6];
+        float square = 0.0f;
+        for (size_t i = 0u; i < 6u; ++i) {
+            on[i] = 0.0f;
+            for (size_t k = 0u; k < 6u; ++k) {
+                on[i] += d[i / 3u] * inverse->columns[i][k] * d[k / 3u] * z[k];
+            }
+            square += on[i] * on[i];
+        }
+        const float share = sqrtf(square);
+        for (size_t i = 0u; i < 6u; ++i) {
+            z[i] = (share > FLT_MIN) ? (on[i] / share) : 1.0f;
+        }
+        inverse->fake_share = share;
+    }
+}
+
+/// Takes information that wrong rows may have made out of a covariance c (3 x 3, packed) of one sensor's vector; `own` is y there.
+static void deflate(const jcal_center_work_t *self, size_t sensor, const float *own, float *c)
+{
+    const float share = self->as.inverse.fake_share;
+    float by_matrix = 0.0f;
+    for (size_t i = 0u; i < 3u; ++i) {
+        by_matrix += self->as.inverse.columns[(3u * sensor) + i][(3u * sensor) + i];
+    }
+    const float left = 1.0f - share;
+    const float more = share * ((1.0f / (left * left)) - 1.0f) * ((c[0] + c[2] + c[5]) / jcal_max(by_matrix, FLT_MIN));
+    const float length2 = (own[0] * own[0]) + (own[1] * own[1]) + (own[2] * own[2]);
+    const float open = JCAL_BOUND_UNKNOWN_M * JCAL_BOUND_UNKNOWN_M / jcal_max(length2, FLT_MIN);
+    jcal_sym_rank1(c, 3u, own, (share < FAKE_SHARE_MAX) ? more : open);
+}
+
+/// Whether the doubtful direction of one sensor's vector is the known hinge axis: then it is open as is to be expected.
+static bool is_along_axis(const float *y, jcal_vec3_t axis)
+{
+    const jcal_vec3_t own = jcal_vec3(y[0], y[1], y[2]);
+    const float along = jcal_vec3_dot(own, axis);
+    return (along * along) > (ALONG_COSINE2 * jcal_vec3_dot(own, own));
+}
+
+static jcal_center_bounds_t bounds_of(const jcal_center_config_t *cfg, const jcal_center_work_t *self, size_t sensor)
+{
+    const jcal_center_inverse_t *const inverse = &self->as.inverse;
+    const jcal_vec3_t axis = (sensor == 0u) ? cfg->hinge_axis1 : cfg->hinge_axis2;
+    const float mismatch_m = cfg->mismatch_m;
+    const float by_row = 1.0f / wrong_row(&self->sums, sensor);
+    const float *const z = &inverse->fake[3u * sensor];
+    const float own[3] = {by_row * z[0], by_row * z[1], by_row * z[2]};
+    const bool by_scatter = radius(inverse->covariance[sensor]) > radius(inverse->least[sensor]);
+    float known[6];
+    float larger[6];
+    (void)memcpy(known, by_scatter ? inverse->covariance[sensor] : inverse->least[sensor], sizeof known);
+    (void)memcpy(larger, known, sizeof larger);
+    deflate(self, sensor, own, larger);
+    float values[3];
+    float vectors[9];
+    jcal_center_bounds_t b = unknown_bounds();
+    if (jcal_eig_symmetric(larger, 3u, values, vectors) != JCAL_OK) {
+        return b;
+    }
+    b.direction = jcal_vec3(vectors[0], vectors[1], vectors[2]);
+    b.weakest = bound(NORMAL_95 * sqrtf(jcal_max(values[0], 0.0f)), inverse->hidden_m, mismatch_m);
+    b.second = bound(NORMAL_95 * sqrtf(jcal_max(values[1], 0.0f)), inverse->hidden_m, mismatch_m);
+    if (!is_along_axis(own, axis)) {
+        (void)memcpy(known, larger, sizeof known);
+    }
+    b.all = bound(jcal_center_radius_across(known, axis), inverse->hidden_m, mismatch_m);
+    return b;
+}
+
+/// What is missing, if anything; the most important first.
+static void name_what_is_missing(const jcal_center_config_t *cfg, jcal_center_work_t *self,
+                                 const jcal_center_bounds_t *b, float hidden_m)
+{
+    jcal_center_verdict_t *const verdict = &self->verdict;
+    const jcal_center_sums_t *const sums = &self->sums;
+    const float limit = cfg->max_bound_m * ((verdict->status == (uint8_t)JCAL_READY) ? HYSTERESIS : 1.0f);
+    const unsigned worse = (b[1].all > b[0].all) ? 1u : 0u;
+    const float still = TURN_MIN * sums->time_s;
+    verdict->weak = (uint8_t)JCAL_WEAK_NONE;
+    verdict->hint = (uint8_t)JCAL_HINT_NONE;
+    verdict->reason = (uint8_t)JCAL_REASON_NONE;
+    if (b[worse].all <= limit) {
+        return;
+    }
+    verdict->weak = (uint8_t)((worse == 1u) ? JCAL_WEAK_CENTER2 : JCAL_WEAK_CENTER1);
+    verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+    if ((sums->turn1 < still) || (sums->turn2 < still)) {
+        verdict->reason = (uint8_t)JCAL_REASON_NO_MOTION;
+        verdict->hint = (uint8_t)((sums->turn1 < sums->turn2) ? JCAL_HINT_MOVE_SEGMENT1 : JCAL_HINT_MOVE_SEGMENT2);
+    } else if (bound(0.0f, hidden_m, cfg->mismatch_m) > limit) {
+        verdict->reason = (uint8_t)JCAL_REASON_DOES_NOT_FIT;
+        verdict->hint = (uint8_t)JCAL_HINT_CHECK_SENSORS;
+    } else if (b[worse].second > limit) {
+        verdict->hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+    } else {
+        verdict->hint = (uint8_t)JCAL_HINT_MORE_DIRECTIONS;
+    }
+}
+
+/// How far what remains unexplained may have shifted the estimate.
+static void find_hidden(const jcal_center_config_t *cfg, jcal_center_work_t *self)
+{
+    const float more = jcal_max(cfg->kinematics.smoothing_s / HIDDEN_S, 1.0f);
+    const jcal_center_sums_t *const sums = &self->sums;
+    const jcal_center_place_t *const place = &sums->point.place;
+    const float share = jcal_min(sums->cost / jcal_max(sums->effect, FLT_MIN), 1.0f);
+    const float lasts = jcal_min(jcal_max(sums->lagged, 0.0f) / jcal_max(sums->raw, FLT_MIN), 1.0f);
+    const float lasting = (more > 1.0f) ? 1.0f : lasts;
+    const float length = sqrtf(jcal_max(jcal_vec3_dot(place->r1, place->r1), jcal_vec3_dot(place->r2, place->r2)));
+    self->verdict.misfit = sqrtf(share);
+    self->as.inverse.hidden_m = ((HIDDEN_SHARE * more * sqrtf(share * lasting)) + share) * length;
+}
+
+static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
+{
+    jcal_center_verdict_t *const verdict = &self->verdict;
+    const bool enough = self->sums.blocks >= BLOCKS_MIN;
+    const jcal_center_bounds_t unknown = unknown_bounds();
+    const jcal_center_bounds_t b[2] = {enough ? self->as.inverse.bounds[0] : unknown,
+                                       enough ? self->as.inverse.bounds[1] : unknown};
+    name_what_is_missing(cfg, self, b, self->as.inverse.hidden_m);
+    verdict->bound1_m = b[0].all;
+    verdict->bound2_m = b[1].all;
+    verdict->weakest1_m = b[0].weakest;
+    verdict->weakest2_m = b[1].weakest;
+    verdict->direction1 = b[0].direction;
+    verdict->direction2 = b[1].direction;
+    if (verdict->reason != (uint8_t)JCAL_REASON_NONE) {
+        verdict->agreed = 0u;
+        if (verdict->status != (uint8_t)JCAL_MOVED) {
+            verdict->status = (uint8_t)JCAL_COLLECTING;
+        }
+        return;
+    }
+    verdict->agreed = (uint8_t)((verdict->agreed < AGREED_MIN) ? (verdict->agreed + 1u) : AGREED_MIN);
+    if (verdict->agreed >= AGREED_MIN) {
+        verdict->status = (uint8_t)JCAL_READY;
+    } else if (verdict->status != (uint8_t)JCAL_READY) {
+        verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+    } else {
+        /* stays ready */
+    }
+}
+
+bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self, unsigned slice)
+{
+    if (slice == 0u) {
+        return factor(cfg, self);
+    }
+    if (slice <= 6u) {
+        column(&self->as.inverse, slice - 1u);
+    } else if (slice <= 12u) {
+        covariance(cfg, self, slice - 7u);
+    } else if (slice == 13u) {
+        find_hidden(cfg, self);
+        find_fake(self);
+    } else if (slice <= 15u) {
+        self->as.inverse.bounds[slice - 14u] = bounds_of(cfg, self, slice - 14u);
+    } else {
+        judge(cfg, self);
+    }
+    return true;
+}
+
+void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_t status)
+{
+    (void)memset(verdict, 0, sizeof *verdict);
+    verdict->bound1_m = JCAL_BOUND_UNKNOWN_M;
+    verdict->bound2_m = JCAL_BOUND_UNKNOWN_M;
+    verdict->weakest1_m = JCAL_BOUND_UNKNOWN_M;
+    verdict->weakest2_m = JCAL_BOUND_UNKNOWN_M;
+    verdict->status = (uint8_t)status;
+    verdict->reason = (uint8_t)JCAL_REASON_NO_DATA;
+    verdict->hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+}
+
+void jcal_center_solve(const jcal_center_config_t *cfg, const jcal_center_work_t *self, float *d)
+{
+    float prior[N];
+    jcal_center_prior(&self->sums, cfg, prior);
+    jcal_center_sums_gradient(&self->sums, prior, d);
+    for (size_t i = 0u; i < N; ++i) {
+        d[i] = -d[i];
+    }
+    jcal_chol_solve_scaled(self->as.inverse.factor, N, self->as.inverse.scale, d);
+}
