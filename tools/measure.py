@@ -38,6 +38,7 @@ MEASUREMENTS = {
     "bias": "what the bias states buy",
     "reference": "the stream engine beside float64, rig and simulated",
     "two_dof": "2-DoF joint: whole rig recordings, and every 5, 10, 20 s window",
+    "hinge_orientations": "What orientations would add to a hinge: 27 first moments, in float64",
     "two_dof_sim": "2-DoF joint, simulated: coverage, sharpness, what must never be ready",
     "moved": "slips: how soon they are noticed, false alarms",
     "angles": "joint angles of the rig beside the optical ones",

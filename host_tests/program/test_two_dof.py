@@ -263,7 +263,7 @@ class Refused(TwoDofTest):
             self.assert_usage(["two-dof", "a", "--window=" + value], "--window")
         for value in ("0.9", "51", "x"):
             self.assert_usage(["two-dof", "a", "--engine=window", "--window=" + value], "--window")
-        for value in ("19", "20.5", "1001", "70000", "x"):
+        for value in ("19", "20.5", "10001", "70000", "x"):
             self.assert_usage(["two-dof", "a", "--engine=window", "--n-max=" + value], "--n-max")
         for value in ("0", "60", "x", "inf"):
             self.assert_usage(["two-dof", "a", "--max-bound=" + value], "--max-bound")

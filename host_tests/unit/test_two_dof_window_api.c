@@ -101,7 +101,7 @@ static void configs_out_of_range_are_refused(void)
     TEST_ASSERT_NULL(jcal_two_dof_window_config_check(&config));
     TEST_ASSERT_EQUAL_INT(JCAL_CONSTRAINT_ROTATION, config.two_dof.constraint);
     TEST_ASSERT_EQUAL_UINT16(200, config.n_max);
-    const uint16_t right[2] = {20, 1000}, wrong[3] = {0, 19, 1001};
+    const uint16_t right[2] = {20, 10000}, wrong[3] = {0, 19, 10001};
     for (int k = 0; k < 2; ++k) {
         config.n_max = right[k];
         TEST_ASSERT_NULL(jcal_two_dof_window_config_check(&config));

@@ -40,7 +40,7 @@ typedef struct {
     /// What both engines share. Here `constraint` is JCAL_CONSTRAINT_ROTATION (default) or JCAL_CONSTRAINT_ORIENTATION; memory_s
     /// has no meaning.
     jcal_two_dof_config_t two_dof;
-    /// M: samples kept. Range [20, 1000], default 200: 10 s. With less than 2 s of motion in the buffer the status is never `ready`.
+    /// M: samples kept. Range [20, 10000], default 200: 10 s. With less than 2 s of motion in the buffer the status is never `ready`.
     uint16_t n_max;
 } jcal_two_dof_window_config_t;
 

@@ -46,7 +46,7 @@ const char *jcal_two_dof_window_config_check(const jcal_two_dof_window_config_t 
     if (config->two_dof.constraint == JCAL_CONSTRAINT_COMBINED) {
         return "constraint";
     }
-    return ((config->n_max < 20u) || (config->n_max > 1000u)) ? "n_max" : NULL;
+    return ((config->n_max < 20u) || (config->n_max > 10000u)) ? "n_max" : NULL;
 }
 
 size_t jcal_two_dof_window_storage_bytes(const jcal_two_dof_window_config_t *config)

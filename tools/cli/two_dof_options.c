@@ -26,7 +26,7 @@ static const struct argp_option OPTIONS[] = {
      "How to compute. stream (default): sums of moments, constant memory. window: the last samples in a buffer, 20 a second, "
      "as published by Laidig et al. 2022",
      0},
-    {"n-max", KEY_N_MAX, "N", 0, "Samples in the window engine's buffer, 20 to 1000 (default 200)", 0},
+    {"n-max", KEY_N_MAX, "N", 0, "Samples in the window engine's buffer, 20 to 10000 (default 200)", 0},
     {"window", KEY_WINDOW, "S", 0,
      "Memory in seconds for the heading, which drifts, once the calibration is ready: 2 to 600 (default 5). With --engine "
      "window the length of its buffer: 1 to 50 (default 10)",
@@ -82,8 +82,8 @@ static void settle_window(struct argp_state *state, parse_t *parse)
     }
     if (parse->has_window) {
         const float samples = roundf(ROWS_PER_S * config->two_dof.memory_s);
-        if (samples < 20.0f || samples > 1000.0f) {
-            argp_error(state, "--window: %g is not a number of seconds from 1 to 50", (double)config->two_dof.memory_s);
+        if (samples < 20.0f || samples > 10000.0f) {
+            argp_error(state, "--window: %g is not a number of seconds from 1 to 500", (double)config->two_dof.memory_s);
         }
         config->n_max = (uint16_t)samples;
         config->two_dof.memory_s = jcal_two_dof_config_default().memory_s; /* has no meaning here */
@@ -100,7 +100,7 @@ static void check_config(struct argp_state *state, const two_dof_engine_config_t
         argp_error(state, "--max-bound: %g degrees are outside what makes sense, 0.06 to 28 degrees",
                    (double)(config->max_bound_rad / RAD_PER_DEG));
     } else if (engine->kind == JCAL_ENGINE_WINDOW && jcal_two_dof_window_config_check(&engine->config) != NULL) {
-        argp_error(state, "--n-max: %d is not a number from 20 to 1000", (int)engine->config.n_max);
+        argp_error(state, "--n-max: %d is not a number from 20 to 10000", (int)engine->config.n_max);
     }
 }
 
@@ -132,7 +132,7 @@ static error_t parse_values(int key, char *argument, struct argp_state *state)
         engine->kind = (jcal_engine_t)option_one_of_two(state, "engine", argument, "stream", "window");
         return 0;
     case KEY_N_MAX:
-        engine->config.n_max = option_sample_count(state, argument, 20, 1000);
+        engine->config.n_max = option_sample_count(state, argument, 20, 10000);
         parse->has_n_max = true;
         return 0;
     case KEY_WINDOW:
