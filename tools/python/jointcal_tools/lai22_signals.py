@@ -101,10 +101,11 @@ def delayed(q: np.ndarray, t_s: np.ndarray, delay_s: float) -> tuple[np.ndarray,
 
 
 def prepare(q1: np.ndarray, q2: np.ndarray, t_s: np.ndarray, low_pass_kind: str = "zero-phase",
-            centred: bool = True) -> Prepared:
+            centred: bool = True, matched: bool = True) -> Prepared:
     """Data sets from orientations alone (C.1) at the recording's rate.
 
     `low_pass_kind`: "zero-phase", "causal" or "none". `centred`: orientations of the moment the rates belong to.
+    `matched`: orientations are delayed as much as a causal filter delays the rates.
     """
     rate_hz = 1.0 / np.median(np.diff(t_s))
     rates = np.hstack([earth_rates(q, t_s) for q in (q1, q2)])
@@ -113,7 +114,7 @@ def prepare(q1: np.ndarray, q2: np.ndarray, t_s: np.ndarray, low_pass_kind: str 
         rates = low_pass_zero_phase(rates, CUTOFF_HZ, rate_hz)
     elif low_pass_kind == "causal":
         rates = low_pass(rates, CUTOFF_HZ, rate_hz)
-        delay_s = low_pass_delay(CUTOFF_HZ, rate_hz)
+        delay_s = low_pass_delay(CUTOFF_HZ, rate_hz) if matched else 0.0
     elif low_pass_kind != "none":
         raise ValueError("low_pass_kind must be 'zero-phase', 'causal' or 'none'")
     if centred:
