@@ -154,8 +154,12 @@ static void another_minimum_about_as_good_is_ambiguous(void)
     evidence.rival_cost = 60.0f;
     TEST_ASSERT_EQUAL_INT(JCAL_AMBIGUOUS, judge_often());
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_OTHER_MINIMUM, verdict.reason);
+    const float right_angle = 1.57f; /* a bound around one of two places bounds nothing */
+    TEST_ASSERT_TRUE((verdict.bound1_rad > right_angle) && (verdict.bound2_rad > right_angle));
+    TEST_ASSERT_TRUE(verdict.bound_heading_rad > right_angle);
     evidence.rival_cost = 1e5f;
     TEST_ASSERT_EQUAL_INT(JCAL_READY, judge_often());
+    TEST_ASSERT_TRUE((verdict.bound1_rad < 0.1f) && (verdict.bound2_rad < 0.1f) && (verdict.bound_heading_rad < 0.1f));
     evidence.cost = 1e5f;
     evidence.rival_cost = 2e5f; /* far more, but not many times as much */
     TEST_ASSERT_EQUAL_INT(JCAL_AMBIGUOUS, judge_often());

@@ -34,8 +34,9 @@ typedef struct {
     jcal_vec3_t axis2;         ///< Unit axis j2 in sensor frame 2; its largest component is positive.
     float heading_offset_rad;  ///< delta, in (-pi, pi]: turns earth frame 2 to earth frame 1 about z.
     float carrying_angle_rad;  ///< beta0: j1 . j2 = sin(beta0) in a common frame.
-    float uncertainty1_rad;    ///< 95 % bound of the angle between axis1 and the truth; a right angle if unknown.
-    float uncertainty2_rad;    ///< The same for axis2.
+    /// 95 % bound of the angle between axis1 and the truth; a right angle if unknown, as while other axes explain the data as well.
+    float uncertainty1_rad;
+    float uncertainty2_rad;         ///< The same for axis2.
     float uncertainty_heading_rad;  ///< 95 % bound of the error of the heading offset at the time t_us.
     float progress_axis1;           ///< 0 to 1: how far axis1 is on the way to its bound.
     float progress_axis2;           ///< The same for axis2.

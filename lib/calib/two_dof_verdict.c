@@ -122,6 +122,13 @@ static jcal_weak_t weakest(const bounds_t *bounds, float limit)
     return (bounds->axis2 >= largest) ? JCAL_WEAK_AXIS2 : JCAL_WEAK_HEADING;
 }
 
+/// Other axes explain the data about as well.
+static bool has_close_rival(const jcal_two_dof_evidence_t *evidence)
+{
+    return evidence->has_rival &&
+           (evidence->rival_cost < jcal_max(evidence->cost + RIVAL_GAP, RIVAL_RATIO * evidence->cost));
+}
+
 /// What is missing; JCAL_COLLECTING with reason NONE stands for nothing.
 static jcal_calibration_t missing(jcal_two_dof_verdict_t *verdict, const jcal_two_dof_config_t *cfg,
                                   const jcal_two_dof_evidence_t *evidence, const bounds_t *bounds, float misfit)
@@ -146,8 +153,7 @@ static jcal_calibration_t missing(jcal_two_dof_verdict_t *verdict, const jcal_tw
             JCAL_REASON_UNCERTAIN);
         return JCAL_COLLECTING;
     }
-    if (evidence->has_rival &&
-        (evidence->rival_cost < jcal_max(evidence->cost + RIVAL_GAP, RIVAL_RATIO * evidence->cost))) {
+    if (has_close_rival(evidence)) {
         say(verdict, JCAL_WEAK_NONE, JCAL_HINT_MOVE_JOINT, JCAL_REASON_OTHER_MINIMUM);
         return JCAL_AMBIGUOUS;
     }
@@ -175,9 +181,10 @@ void jcal_two_dof_conclude(jcal_two_dof_verdict_t *verdict, const jcal_two_dof_c
 {
     const float misfit = misfit_of(cfg, evidence);
     const bounds_t bounds = bounds_of(cfg, evidence);
-    verdict->bound1_rad = bounds.axis1;
-    verdict->bound2_rad = bounds.axis2;
-    verdict->bound_heading_rad = bounds.heading;
+    const bool open = has_close_rival(evidence); /* a bound around one of two places bounds nothing */
+    verdict->bound1_rad = open ? UNKNOWN_RAD : bounds.axis1;
+    verdict->bound2_rad = open ? UNKNOWN_RAD : bounds.axis2;
+    verdict->bound_heading_rad = open ? UNKNOWN_RAD : bounds.heading;
     verdict->sine = evidence->sine;
     const jcal_calibration_t found = missing(verdict, cfg, evidence, &bounds, misfit);
     if (found != JCAL_READY) {

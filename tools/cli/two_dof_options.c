@@ -83,7 +83,8 @@ static void settle_window(struct argp_state *state, parse_t *parse)
     if (parse->has_window) {
         const float samples = roundf(ROWS_PER_S * config->two_dof.memory_s);
         if (samples < 20.0f || samples > 10000.0f) {
-            argp_error(state, "--window: %g is not a number of seconds from 1 to 500", (double)config->two_dof.memory_s);
+            argp_error(state, "--window: %g is not a number of seconds from 1 to 500",
+                       (double)config->two_dof.memory_s);
         }
         config->n_max = (uint16_t)samples;
         config->two_dof.memory_s = jcal_two_dof_config_default().memory_s; /* has no meaning here */
