@@ -261,7 +261,7 @@ class Refused(TwoDofTest):
         self.assert_usage(["two-dof", "a", "--constraint", "both"], "--constraint: 'both' is neither")
         for value in ("0", "1.9", "601", "x", "nan"):
             self.assert_usage(["two-dof", "a", "--window=" + value], "--window")
-        for value in ("0.9", "51", "x"):
+        for value in ("0.9", "501", "x"):
             self.assert_usage(["two-dof", "a", "--engine=window", "--window=" + value], "--window")
         for value in ("19", "20.5", "10001", "70000", "x"):
             self.assert_usage(["two-dof", "a", "--engine=window", "--n-max=" + value], "--n-max")

@@ -125,6 +125,15 @@ typedef struct {
     jcal_plane_t path2;
 } jcal_hinge_block_t;
 
+/// Private: what the last seconds alone say of the axes; lib/calib/hinge_slip.h.
+typedef struct {
+    float gradient[4];  ///< Half the gradient of the tilts, biases eliminated.
+    float matrix[10];   ///< Packed 4 x 4.
+    float cost;         ///< Squared residuals, in units of the assumed noise.
+    float units;        ///< Readings.
+    float time_s;
+} jcal_hinge_slip_t;
+
 /// Private: the refined axes and the sums that they rest on.
 typedef struct {
     jcal_hinge_point_t point;   ///< The axes.
@@ -155,6 +164,7 @@ typedef struct {
     float same;          ///< Residual of this sign pairing, as a share of what could match, integrated over time ...
     float other;         ///< ... of the other pairing ...
     float sign_time_s;   ///< ... and the time for which there was something to match.
+    jcal_hinge_slip_t slip;
     bool has_last;
 } jcal_hinge_refine_t;
 

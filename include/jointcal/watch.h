@@ -12,7 +12,7 @@ extern "C" {
 
 /// Private: residuals of two kinds, squared, in units of what the config takes for usual.
 typedef struct {
-    float recent[2];  ///< Mean over the last second of motion.
+    float recent[2];  ///< Mean over the last 1.5 s of motion.
     float usual[2];   ///< Mean over the last 20 s of motion since the calibration was ready.
     float seen_s[2];  ///< How much motion that is, at most 20 s.
     bool on;          ///< There is a calibration that was ready.

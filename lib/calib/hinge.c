@@ -8,6 +8,7 @@
 #include "calib/hinge_point.h"
 #include "calib/hinge_refine.h"
 #include "calib/hinge_search.h"
+#include "calib/hinge_slip.h"
 #include "calib/hinge_stream.h"
 #include "calib/watch.h"
 #include "jointcal/vec3.h"
@@ -51,6 +52,9 @@
 
 /// Share of the accelerometers' assumed variance that changes within a second; the rest, biases say, is there all the time.
 #define WATCH_ACC_SHARE 0.3f
+
+/// Axes may be off by this, rad, beyond their bounds before a sensor is said to have moved.
+#define SLIP_RAD 0.06f
 
 /// Sums are halved when they reach this: half an hour at 1 rad/s, four minutes at 3 rad/s, rad^2/s. One more sample then changes a
 /// sum by 2^-17 of itself, a hundred times what float32 resolves.
@@ -256,6 +260,14 @@ static void watch_fit(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     jcal_watch_add(&self->watch, 1u, acc * acc / (WATCH_ACC_SHARE * acc_variance(self)), motion_s);
 }
 
+/// True if the last seconds contradict a calibration that was ready.
+static bool has_slipped(const jcal_hinge_t *self)
+{
+    const float bound = jcal_max(self->verdict.bound1_rad, self->verdict.bound2_rad);
+    return self->watch.on &&
+           jcal_hinge_slip_alarm(&self->refine.slip, SLIP_RAD + jcal_min(bound, self->cfg.max_bound_rad));
+}
+
 /// A sensor has moved: what was learnt of the joint is void.
 static void begin_anew(jcal_hinge_t *self)
 {
@@ -336,7 +348,7 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
     if (self->verdict.status == (uint8_t)JCAL_READY) {
         jcal_watch_start(&self->watch);
     }
-    if (jcal_watch_alarm(&self->watch)) {
+    if (jcal_watch_alarm(&self->watch) || (closed && has_slipped(self))) {
         begin_anew(self);
         return;
     }

@@ -5,6 +5,7 @@
 
 #include "calib/hinge_block.h"
 #include "calib/hinge_point.h"
+#include "calib/hinge_slip.h"
 #include "jointcal/vec3.h"
 #include "math/chol.h"
 #include "math/plane.h"
@@ -180,6 +181,7 @@ static void move(jcal_hinge_refine_t *self, const float d[UNKNOWNS])
         self->lean[i] += self->information2 * each[i];
         self->bias[i] += d[TILTS + i];
     }
+    jcal_hinge_slip_move(&self->slip, d);
     jcal_hinge_point_move(&self->point, d);
     give_up_what_is_far(self, 0u, &self->point.axis1, &self->anchor.j1);
     give_up_what_is_far(self, 1u, &self->point.axis2, &self->anchor.j2);
@@ -285,8 +287,9 @@ static void add_block(jcal_hinge_refine_t *self, float reach)
         for (unsigned k = 0u; k <= i; ++k) {
             const float sum = block->matrix[jcal_sym_at(i, k)] - (share * of_phase[k]);
             self->matrix[jcal_sym_at(i, k)] += sum;
-            if ((i == k) && (i < TILTS)) {
-                told[i / 2u] += sum;
+            if (i < TILTS) {
+                self->slip.matrix[jcal_sym_at(i, k)] += sum;
+                told[i / 2u] += (i == k) ? sum : 0.0f;
             }
         }
         score[i] = block->gradient[i] - (share * block->gradient[PHASE]);
@@ -300,8 +303,11 @@ static void add_block(jcal_hinge_refine_t *self, float reach)
     less_biases(self, score, tilts);
     jcal_sym_rank1(self->scatter, TILTS, tilts, 1.0f);
     for (unsigned i = 0u; i < TILTS; ++i) {
+        self->slip.gradient[i] += tilts[i];
         self->lean[i] += trace * tilts[i];
     }
+    self->slip.units += block->units;
+    self->slip.time_s += block->time_s;
     self->information += trace;
     self->information2 += trace * trace;
     for (unsigned axis = 0u; axis < 2u; ++axis) {
@@ -327,8 +333,10 @@ static void close_block(jcal_hinge_t *engine)
         const float power = power1 + block->power2;
         const float cost = jcal_max(power - (2.0f * strength), 0.0f);
         const float cost_other = jcal_max(power - (2.0f * jcal_plane_norm(block->match_other)), 0.0f);
+        jcal_hinge_slip_fade(&self->slip, block->time_s);
         add_block(self, reach);
         self->cost += cost;
+        self->slip.cost += cost;
         const float least = SIGN_FLOOR * jcal_hinge_refine_noise(self) * block->units;
         const float share = block->time_s / (power + least);
         self->same += share * cost;

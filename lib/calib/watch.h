@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Notices that a sensor has moved: after `ready` the residuals of a second of motion are many times what they were. Private.
+/// Notices that a sensor has moved: after `ready` the residuals of 1.5 s of motion are many times what they were. Private.
 ///
 /// A misfit that grows slowly, as when the estimate settles, moves what is usual and is no alarm; rest carries no weight.
 #ifndef JCAL_WATCH_PRIVATE_H
@@ -10,18 +10,18 @@
 #include "math/scalar.h"
 
 /// Time constants, s of motion.
-#define JCAL_WATCH_RECENT_S 1.0f
+#define JCAL_WATCH_RECENT_S 1.5f
 #define JCAL_WATCH_USUAL_S 20.0f
 
 /// A sensor has moved when recent residuals, squared, are this many times the usual ones.
-#define JCAL_WATCH_RATIO 6.0f
+#define JCAL_WATCH_RATIO 5.0f
 
 /// What is usual is never taken for less than this: a calm moment is no measure.
 #define JCAL_WATCH_LEAST 0.25f
 
-/// A square counts at most this many times the usual, so that an alarm takes a third of a second of motion that does not fit: a few samples
+/// A square counts at most this many times the usual, so that an alarm takes half a second of motion that does not fit: a few samples
 /// spoilt by a lost packet, or by sensors that are put down on a table, are no slip.
-#define JCAL_WATCH_CLIP 20.0f
+#define JCAL_WATCH_CLIP 15.0f
 
 /// Squared rates of both sensors at which a sample counts half: rest tells nothing, (rad/s)^2.
 #define JCAL_WATCH_REST_RATE2 0.25f

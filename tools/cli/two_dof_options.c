@@ -29,7 +29,7 @@ static const struct argp_option OPTIONS[] = {
     {"n-max", KEY_N_MAX, "N", 0, "Samples in the window engine's buffer, 20 to 10000 (default 200)", 0},
     {"window", KEY_WINDOW, "S", 0,
      "Memory in seconds for the heading, which drifts, once the calibration is ready: 2 to 600 (default 5). With --engine "
-     "window the length of its buffer: 1 to 50 (default 10)",
+     "window the length of its buffer: 1 to 500 (default 10)",
      0},
     {"every", KEY_EVERY, "S", 0, "Report an estimate every S seconds of recording time", 0},
     {"max-bound", KEY_MAX_BOUND, "DEG", 0,
