@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Write the golden vectors, host_tests/golden/hinge.h, two_dof.h and center.h, from the float64 references.
+"""Write the golden vectors, host_tests/golden/hinge.h, two_dof.h, center.h and chain.h, from the float64 references.
 
     python3 tools/make_golden.py            write the files
     python3 tools/make_golden.py --check    exit 1 if the numbers in the repository differ
@@ -11,7 +11,8 @@ tolerance, and everything between them exactly.
 The numbers know nothing of the C code: samples come from the simulator, the costs of
 the stream form and of OLS20 from jointcal_tools.ols20 and from the formulas of
 docs/METHOD.md section 2, written out below; those of the 2-DoF joint from
-jointcal_tools.lai22 and lai22_angles, those of the joint centre from jointcal_tools.ols17.
+jointcal_tools.lai22 and lai22_angles, those of the joint centre from jointcal_tools.ols17,
+and those of what ties hip and knee from weighted least squares, written out below.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ import argparse
 import re
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import numpy as np
 
@@ -40,6 +42,10 @@ POINTS = 6
 TWO_DOF_SAMPLES = 30
 CENTER_SAMPLES, CENTER_SHOWN = 250, 12
 CENTER_RATE_HZ = 50.0
+CHAIN_STATES = 18
+CHAIN_OBSERVED = 3
+SAME_BIAS_M_S2 = 0.01  # by how much one accelerometer may differ from itself
+CONTRADICTION = 3.0  # standard deviations
 RATE_HZ = 50.0
 GYR_NOISE_RAD_S = 0.03  # fields of jcal_hinge_config_t with their defaults
 ACC_BIAS_M_S2 = 0.5
@@ -253,7 +259,161 @@ def center_header() -> str:
 """
 
 
-HEADERS = {"hinge.h": hinge_header, "two_dof.h": two_dof_header, "center.h": center_header}
+class Row(NamedTuple):
+    """A linear observation: slope . x is `target` but for a standard deviation."""
+
+    slope: np.ndarray
+    target: float
+    sd: float
+
+
+class Tie(NamedTuple):
+    """One case of hip and knee. Places of the state: lib/calib/chain_tie.h."""
+
+    biases: bool
+    normal: np.ndarray  # (3,); zero: no plane
+    plane_sd: float
+    length: float  # zero: not known
+    length_sd: float
+    fits: bool  # no tie contradicts
+
+
+def least_squares(mean: np.ndarray, covariance: np.ndarray, rows: list[Row]) -> tuple[np.ndarray, np.ndarray]:
+    """Minimum of (x - mean)' C^-1 (x - mean) + sum ((slope . x - target) / sd)^2, all at once, and its covariance."""
+    information = np.linalg.inv(covariance)
+    right = information @ mean
+    for row in rows:
+        information = information + np.outer(row.slope, row.slope) / row.sd**2
+        right = right + row.slope * row.target / row.sd**2
+    return np.linalg.solve(information, right), np.linalg.inv(information)
+
+
+def between(v: np.ndarray) -> np.ndarray:
+    """Slope of v . (r_HT - r_KT)."""
+    slope = np.zeros(CHAIN_STATES)
+    slope[3:6], slope[12:15] = v, -v
+    return slope
+
+
+def agrees(mean: np.ndarray, covariance: np.ndarray, rows: list[Row], more: Row) -> bool:
+    """Whether one more observation is less than CONTRADICTION away from what the others say, and clearly so or clearly not."""
+    x, c = least_squares(mean, covariance, rows)
+    away = abs(more.slope @ x - more.target) / np.sqrt(more.slope @ c @ more.slope + more.sd**2)
+    assert abs(away - CONTRADICTION) > 0.2
+    return bool(away < CONTRADICTION)
+
+
+def direction_after(mean: np.ndarray, covariance: np.ndarray, rows: list[Row]) -> np.ndarray:
+    x = least_squares(mean, covariance, rows)[0]
+    return (x[3:6] - x[12:15]) / np.linalg.norm(x[3:6] - x[12:15])
+
+
+def tied(mean: np.ndarray, covariance: np.ndarray, tie: Tie) -> tuple[np.ndarray, np.ndarray, bool]:
+    """Estimate and covariance with all ties that do not contradict, and whether none does.
+
+    The distance |s| = length, s = r_HT - r_KT, takes two steps of Gauss-Newton from where the other ties lead. Linearised at s_0, |s| is
+    |s_0| + d . (s - s_0) = d . s with d = s_0 / |s_0|, so that a step is linear least squares with the row d . s = length, and its
+    result gives the next step's d.
+    """
+    rows, candidates = [], []
+    if tie.biases:
+        unit = np.eye(CHAIN_STATES)
+        candidates += [Row(unit[6 + k] - unit[9 + k], 0.0, SAME_BIAS_M_S2) for k in range(3)]
+    if tie.normal.any():
+        candidates.append(Row(between(tie.normal), 0.0, tie.plane_sd))
+    fits = True
+    for row in candidates:
+        keep = agrees(mean, covariance, rows, row)
+        rows, fits = rows + [row] * keep, fits and keep
+    if tie.length > 0.0:
+        first = Row(between(direction_after(mean, covariance, rows)), tie.length, tie.length_sd)
+        if agrees(mean, covariance, rows, first):
+            second = Row(between(direction_after(mean, covariance, rows + [first])), tie.length, tie.length_sd)
+            assert agrees(mean, covariance, rows, second)
+            rows.append(second)
+        else:
+            fits = False
+    return *least_squares(mean, covariance, rows), fits
+
+
+def chain_gaussian(rng: np.random.Generator, coupled: bool) -> tuple[np.ndarray, np.ndarray]:
+    """What hip and knee might know: a thigh of 0.4 m, vectors known to 5 to 40 mm, biases to 0.02 to 0.1 m/s^2."""
+    mean = np.concatenate([rng.uniform(-0.2, 0.2, 6), rng.uniform(-0.05, 0.05, 6), rng.uniform(-0.2, 0.2, 6)])
+    along = rng.standard_normal(3)
+    mean[12:15] = mean[3:6] - 0.4 * along / np.linalg.norm(along)
+    sd = np.concatenate([rng.uniform(0.005, 0.04, 6), rng.uniform(0.02, 0.1, 6), rng.uniform(0.005, 0.04, 6)])
+    factor = rng.standard_normal((CHAIN_STATES, 2 * CHAIN_STATES))
+    correlation = factor @ factor.T
+    if not coupled:  # as the joints are before any tie
+        correlation[:9, 9:] = correlation[9:, :9] = 0.0
+    scale = sd / np.sqrt(np.diag(correlation))
+    return float32(mean), float32(correlation * np.outer(scale, scale))
+
+
+def chain_ties(rng: np.random.Generator, gaussians: list[tuple[np.ndarray, np.ndarray]]) -> list[Tie]:
+    """Each tie by itself, all of them, and those that contradict. Planes and lengths are near what each Gaussian says, but for those."""
+    ties = []
+    for number, (mean, _) in enumerate(gaussians):
+        segment = mean[3:6] - mean[12:15]
+        normal = np.cross(segment, rng.standard_normal(3))
+        off = 0.05 * segment / (segment @ segment) if number != 7 else 2.0 * segment
+        normal = normal / np.linalg.norm(normal) + off
+        ties.append(Tie(biases=number not in (1, 2),
+                        normal=float32(normal / np.linalg.norm(normal)) * (number not in (0, 2)),
+                        plane_sd=float(float32(0.03)),
+                        length=float(float32(np.linalg.norm(segment) + (0.3 if number == 6 else 0.02))) * (number not in (0, 1)),
+                        length_sd=float(float32(0.005)), fits=number < 6))
+    return ties
+
+
+def packed(matrix: np.ndarray) -> np.ndarray:
+    """Lower triangle, row after row."""
+    return matrix[np.tril_indices(len(matrix))]
+
+
+def chain_header() -> str:
+    rng = np.random.default_rng(SEED)
+    gaussians = [chain_gaussian(rng, coupled=number == 5) for number in range(9)]
+    gaussians[8][0][10] = 1.0  # m/s^2: one bias contradicts the other
+    ties = chain_ties(rng, gaussians)
+    results = [tied(mean, covariance, tie) for (mean, covariance), tie in zip(gaussians, ties, strict=True)]
+    assert [fits for *_, fits in results] == [tie.fits for tie in ties]
+    mean, covariance = gaussians[0]
+    slopes, sd = float32(rng.standard_normal((CHAIN_OBSERVED, CHAIN_STATES))), float32([0.05, 0.1, 0.2])
+    targets = float32(slopes @ mean + 0.05 * rng.standard_normal(CHAIN_OBSERVED))
+    observed = least_squares(mean, covariance, [Row(*row) for row in zip(slopes, targets, sd, strict=True)])
+    tables = [
+        table("golden_means", "What hip and knee know: states as in calib/chain_tie.h.", np.array([m for m, _ in gaussians]), "float"),
+        table("golden_covariances", "Their covariances, packed.", np.array([packed(c) for _, c in gaussians]), "float"),
+        table("golden_ties", "1 if biases are tied, normal of the plane, its tolerance, m, length, m, its tolerance, 1 if nothing "
+              "contradicts.", np.array([[t.biases, *t.normal, t.plane_sd, t.length, t.length_sd, t.fits] for t in ties], float), "float"),
+        table("golden_tied_means", "After the ties.", np.array([m for m, _, _ in results])),
+        table("golden_tied_covariances", "After the ties, packed.", np.array([packed(c) for _, c, _ in results])),
+        table("golden_observations", "Of the first state: slope, what slope . x should be, standard deviation.",
+              np.column_stack([slopes, targets, sd]), "float"),
+        table("golden_observed_mean", "The first state after all of these observations.", observed[0]),
+        table("golden_observed_covariance", "Its covariance, packed.", packed(observed[1])),
+    ]
+    return f"""/* SPDX-License-Identifier: MIT */
+/// @file
+/// Golden vectors of what ties hip and knee, in float64, generated: do not edit. Compared by unit/test_golden_chain.c.
+///
+/// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
+#ifndef GOLDEN_CHAIN_H
+#define GOLDEN_CHAIN_H
+
+/* clang-format off */
+#define GOLDEN_CASES {len(gaussians)}
+#define GOLDEN_STATES {CHAIN_STATES}
+#define GOLDEN_OBSERVED {CHAIN_OBSERVED}
+
+""" + "\n".join(tables) + """/* clang-format on */
+
+#endif /* GOLDEN_CHAIN_H */
+"""
+
+
+HEADERS = {"hinge.h": hinge_header, "two_dof.h": two_dof_header, "center.h": center_header, "chain.h": chain_header}
 
 
 def differences(old: str, new: str) -> list[str]:

@@ -122,12 +122,14 @@ def best_heading(joint: Joint, x: np.ndarray, first: int) -> float:
 
 
 def solve(hip: Joint, knee: Joint, use: Ingredients, noise: tuple[float, float] = (0.05, 0.01)) -> ChainFit:
-    """Gauss-Newton over both joints. With orientations it starts where the lengths lead."""
+    """Gauss-Newton over both joints. With orientations or the thigh's length it starts where (4) alone leads.
+
+    A length does not tell the knee's side of the hip: from nowhere, Gauss-Newton may end on the wrong one.
+    """
     x = np.zeros(UNKNOWNS)
-    x[3:6] = 1e-3  # the thigh needs a direction
+    if use.orientations or use.thigh_m is not None:
+        x[PLACES] = solve(hip, knee, Ingredients(biases=True), noise).places.ravel()
     if use.orientations:
-        plain = solve(hip, knee, Ingredients(biases=True), noise)
-        x[PLACES] = plain.places.ravel()
         x[HEADINGS] = best_heading(hip, x, 0), best_heading(knee, x, 2)
     for _ in range(ols17.MAX_ITERATIONS):
         parts = [joint_system(joint, x, first, use, noise) for joint, first in ((hip, 0), (knee, 2))]

@@ -406,7 +406,7 @@ def simulate_sensor(spec: HingeSpec, index: int, w: np.ndarray, dw: np.ndarray, 
                     q: np.ndarray) -> tuple[np.ndarray, ...]:
     """One IMU from its segment's rate, angular acceleration, a0 + g (3, N, segment frame) and orientation (4, N).
 
-    Returns gyr, acc (N, 3), q (N, 4), axis (3,), r (3,).
+    Returns gyr, acc (N, 3), q (N, 4), mount (3, 3), sensor to segment without soft tissue, and r (3,).
     """
     rng = np.random.default_rng([spec.seed, 3, index])
     q_mount = random_unit(rng, 4)  # sensor to segment
@@ -427,7 +427,7 @@ def simulate_sensor(spec: HingeSpec, index: int, w: np.ndarray, dw: np.ndarray, 
     noise = spec.noise_scale * np.random.default_rng([spec.seed, 5, index]).standard_normal((2, w.shape[1], 3))
     gyr = w.T + bias_gyr + GYR_STD_RAD_S * noise[0]
     acc = force.T + bias_acc + ACC_STD_M_S2 * noise[1]
-    return gyr, acc, q.T.copy(), mount.T @ [0.0, 1.0, 0.0], r
+    return gyr, acc, q.T.copy(), mount, r
 
 
 def simulate_hinge(spec: HingeSpec) -> HingeRecording:
@@ -444,7 +444,8 @@ def simulate_hinge(spec: HingeSpec) -> HingeRecording:
         segment = turn_frame(1, angles, channel, w, dw, force)
         q = quat_mul(q_axis, elementary_quat(1, angles.value[channel]))
         sensors.append(simulate_sensor(spec, index, *segment, q))
-    (gyr1, acc1, q1, axis1, r1), (gyr2, acc2, q2, axis2, r2) = sensors
+    (gyr1, acc1, q1, mount1, r1), (gyr2, acc2, q2, mount2, r2) = sensors
+    axis1, axis2 = (mount.T @ [0.0, 1.0, 0.0] for mount in (mount1, mount2))
     keep = slice(None) if spec.keep_transitions else angles.motion_id != 0
     theta = (angles.value[3] - angles.value[2])[keep]
     return HingeRecording(np.arange(len(theta)) / spec.rate_hz, gyr1[keep], acc1[keep], gyr2[keep], acc2[keep],

@@ -132,8 +132,8 @@ def simulate_chain(spec: ChainSpec) -> ChainRecording:
             channel = 3 * segment + turn
             body = turn_frame(AXES_OF[channel], angles, channel, *body)
             q = quat_mul(q, elementary_quat(AXES_OF[channel], angles.value[channel]))
-        sensor_gyr, sensor_acc, sensor_q, _, r = simulate_sensor(spec, segment, *body, q)
-        mounts.append(quat.matrices(quat.multiply(quat.conjugate(q.T[:1]), sensor_q[:1]))[0])  # sensor to segment, at first
+        sensor_gyr, sensor_acc, sensor_q, mount, r = simulate_sensor(spec, segment, *body, q)
+        mounts.append(mount)
         gyr.append(sensor_gyr)
         acc.append(sensor_acc)
         found.append(quat.multiply(earth_error(spec, segment, n), sensor_q))

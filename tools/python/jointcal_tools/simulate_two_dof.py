@@ -290,8 +290,8 @@ def simulate_two_dof(spec: TwoDofSpec) -> TwoDofRecording:
         body = turn_frame(axis, source, channel, *body)
         q = quat_mul(q, elementary_quat(axis, source.value[channel]))
         if channel in (PSI, GAMMA):
-            gyr, acc, q_s, j, r = simulate_sensor(spec, len(sensors), *body, q)
-            sensors.append((gyr, acc, quat.multiply(quat.conjugate(frames[len(sensors)]), q_s), j, r))
+            gyr, acc, q_s, mount, r = simulate_sensor(spec, len(sensors), *body, q)
+            sensors.append((gyr, acc, quat.multiply(quat.conjugate(frames[len(sensors)]), q_s), mount.T @ [0.0, 1.0, 0.0], r))
     (gyr1, acc1, q1, axis1, r1), (gyr2, acc2, q2, axis2, r2) = sensors
     rec = TwoDofRecording(np.arange(n) / spec.rate_hz, gyr1, acc1, gyr2, acc2, axis1, axis2, r1, r2,
                           *angles.value[[ALPHA, BETA, GAMMA]], delta, q1, q2, *frames, angles.motion_id, [], spec)
