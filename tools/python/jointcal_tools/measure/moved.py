@@ -19,6 +19,7 @@ from .two_dof import RIG as RIG_TWO_DOF
 TITLE = "Slips: how soon a sensor that has moved is noticed"
 SIMULATED, ON_RIG = 200, 50  # slips, of each joint
 ANGLES_DEG = (10.0, 90.0)
+CALM = 150  # runs without a slip, of each joint
 PART_S = 60.0  # of a rig recording, the slip half-way
 SOON_S = 5.0  # of motion
 SHARE = 0.95
@@ -100,6 +101,47 @@ def measure_slip(job: tuple[str, str, int]) -> Outcome:
                    at / rec.rate_hz / 3600.0, float(wrong.sum() / rec.rate_hz), bool(status[-1] == native.READY))
 
 
+@dataclass
+class Calm:
+    """A run without any slip."""
+
+    joint: str
+    hours: float
+    alarms: int
+    was_ready: bool
+
+
+def measure_calm(job: tuple[str, int]) -> Calm:
+    """Calm, lively and resting parts after each other, with biases and soft tissue; no sensor slips."""
+    joint, index = job
+    rng = np.random.default_rng([("hinge", "two_dof").index(joint), 2, index, 4445])
+    common = {"rate_hz": 50.0, "seed": int(rng.integers(2**31)), "speed": float(rng.uniform(0.5, 3.0)),
+              "soft_tissue_deg": float(rng.uniform(0.0, 1.5)), "gyr_bias_deg_s": float(rng.uniform(0.0, 1.0))}
+    if joint == "hinge":
+        lively = ("5", "6", "7", "12", "13", "14")[index % 6], ("6", "14", "12")[index % 3]
+        rec = simulate_hinge(HingeSpec(motions=(("daily", 30.0), (lively[0], 30.0), ("daily", 30.0), ("rest", 10.0), (lively[1], 30.0)),
+                                       acc_bias=float(rng.uniform(0.0, 1.0)), **common))
+    else:
+        rec = simulate_two_dof(TwoDofSpec(motions=(("daily", 30.0), ("free", 30.0), ("daily", 30.0), ("rest", 10.0), ("complex", 30.0)),
+                                          acc_bias=float(rng.uniform(0.0, 0.3)), carrying_deg=float(rng.uniform(0.0, 20.0)), **common))
+    status = run(joint, rec)[0]
+    alarms = int(((status[1:] == native.MOVED) & (status[:-1] != native.MOVED)).sum())
+    return Calm(joint, len(rec) / rec.rate_hz / 3600.0, alarms, bool((status == native.READY).any()))
+
+
+def describe_calm(joints: list[str], count: int, settings: Settings, report: Report) -> None:
+    found = run_jobs(measure_calm, [(joint, index) for joint in joints for index in range(count)], "moved, calm and lively", settings)
+    report.text("No slip at all: two minutes of calm, lively and resting parts after each other, soft tissue of up to 1.5 deg, biases of up to "
+                "1 deg/s and 1 (hinge) or 0.3 m/s^2.")
+    rows = []
+    for joint in joints:
+        mine = [o for o in found if o.joint == joint]
+        alarms, hours = sum(o.alarms for o in mine), sum(o.hours for o in mine)
+        rows.append([joint, len(mine), sum(o.was_ready for o in mine), alarms, number(hours, 1)])
+        report.require_most(f"{joint}, calm and lively: false alarms per hour", alarms / hours, ALARMS_PER_HOUR)
+    report.table(["joint", "runs", "ever ready", "false alarms", "in hours"], rows)
+
+
 def row_of(joint: str, source: str, mine: list[Outcome]) -> list:
     ready = [o for o in mine if o.was_ready]
     missed = [o.change_deg for o in ready if o.after_s > SOON_S]
@@ -131,3 +173,4 @@ def measure(settings: Settings, report: Report) -> None:
                              sum(o.after_s <= SOON_S for o in ready), len(ready), SHARE)
         report.require_most(f"{joint}, {source}: false alarms per hour",
                             sum(o.early for o in mine) / sum(o.hours for o in mine), ALARMS_PER_HOUR)
+    describe_calm(joints, settings.count(CALM, 6), settings, report)
