@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Builds and runs the fuzzers under address and undefined behaviour sanitizers: tools/fuzz.sh [RUNS [TARGET...]]
 #
-# RUNS executions of the reader (default 20000) and a hundredth as many of push, each of which pushes up to 50 samples into
-# both engines; of the hub's frames as many as of the reader, and then tools/fuzz.sh frames with as many frames. Inputs that reach new code are kept in build/fuzz; host_tests/fuzz/corpus is where every run starts. tools/fuzz.sh merge copies what is worth keeping there.
+# RUNS executions of the reader (default 20000) and a hundredth as many of push and joints, each of which pushes tens of samples into
+# the engines of the hinge, or of all other joints; of the hub's frames as many as of the reader, and then tools/fuzz.sh frames with as many frames. Inputs that reach new code are kept in build/fuzz; host_tests/fuzz/corpus is where every run starts. tools/fuzz.sh merge copies what is worth keeping there.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 source tools/packages.sh
@@ -36,7 +36,7 @@ fi
 runs=${1:-20000}
 shift || true
 targets=("$@")
-((${#targets[@]} > 0)) || targets=(reader push frame)
+((${#targets[@]} > 0)) || targets=(reader push joints frame)
 out=build/fuzz
 mkdir -p "$out"
 
@@ -59,7 +59,7 @@ for target in "${targets[@]}"; do
     fi
     count=$runs
     length=8192
-    if [[ $target == push ]]; then
+    if [[ $target == push || $target == joints ]]; then
         count=$((runs / 100))
         length=2604
     fi
