@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Tests of jointcal/two_dof.h: what the stream engine finds on simulated joints, what it never finds, and its interface.
+#include "jointcal/quat.h"
 #include "jointcal/two_dof.h"
 #include "two_dof_double.h"
 #include "two_dof_motion.h"
@@ -253,6 +254,29 @@ static void a_slip_is_noticed_and_calibrated_anew(void)
     }
 }
 
+/* Seconds until ready again if the orientations do not fit for 20 s after a slip, as those of a filter that the slip has upset. */
+static void after_a_slip_what_does_not_fit_is_given_up(void)
+{
+    const sim_t sim = lively(1);
+    const uint32_t slip = 30u * RATE_HZ, upset = 20u * RATE_HZ;
+    feed(&engine, &sim, 0, slip);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    uint32_t again = 0;
+    for (uint32_t k = slip; k < (slip + upset + (30u * RATE_HZ)); ++k) {
+        jcal_orientation_pair_t pair = slipped(&sim, k);
+        if (k < (slip + upset)) {
+            const float t = (float)(k - slip) / (float)RATE_HZ;
+            pair.q2 = jcal_quat_mul(
+                jcal_quat_normalise(jcal_quat(1.0f, 0.2f * sinf(4.1f * t), 0.2f * sinf(5.3f * t), 0.0f)), pair.q2);
+        }
+        (void)jcal_two_dof_update(&engine, &pair);
+        const bool ready = (k > (slip + (5u * RATE_HZ))) && (result_of(&engine).status == JCAL_READY);
+        TEST_ASSERT_FALSE(ready && (k < (slip + upset)));
+        again = (ready && (again == 0u)) ? k : again;
+    }
+    TEST_ASSERT_TRUE((again > 0u) && (again < (slip + upset + (20u * RATE_HZ))));
+}
+
 static void rest_after_ready_is_no_slip_and_keeps_the_axes(void)
 {
     const sim_t sim = lively(3);
@@ -432,6 +456,7 @@ int main(void)
     RUN_TEST(bodies_that_share_no_joint_do_not_fit);
     RUN_TEST(frozen_values_are_never_ready);
     RUN_TEST(a_slip_is_noticed_and_calibrated_anew);
+    RUN_TEST(after_a_slip_what_does_not_fit_is_given_up);
     RUN_TEST(rest_after_ready_is_no_slip_and_keeps_the_axes);
     RUN_TEST(the_heading_is_followed_as_it_drifts);
     RUN_TEST(shifting_all_times_changes_no_bit);

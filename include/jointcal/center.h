@@ -152,7 +152,8 @@ typedef struct {
     float least[2][6];       ///< ... and what it is at least, from the matrix.
     float fake[6];           ///< Direction of whose information the largest share may be none, scaled ...
     float fake_share;        ///< ... that share ...
-    float hidden_m;          ///< ... and how far what is unexplained may have shifted the estimate.
+    float lasting_m;  ///< ... how far that part of what is unexplained that lasts may have shifted the estimate ...
+    float hidden_m;   ///< ... and all of it.
     jcal_center_bounds_t bounds[2];
 } jcal_center_inverse_t;
 

@@ -161,8 +161,9 @@ typedef struct {
     uint8_t pushes;             ///< Samples since one was last kept.
     uint8_t share;              ///< Items of work per call of step.
     uint8_t item;               ///< Next item of work on the sample last taken.
-    float time_s;  ///< Weight of the sample that is being summed, s: its time, less if there is little motion.
-    bool odd;      ///< Every other sample, once the status is ready, gets a slice of the search.
+    float time_s;   ///< Weight of the sample that is being summed, s: its time, less if there is little motion.
+    bool odd;       ///< Every other sample, once the status is ready, gets a slice of the search.
+    bool recovers;  ///< A sensor has moved since the status was `ready`.
     bool has_best;
     jcal_watch_t watch;  ///< Of the rotation-based and the orientation-based residual.
 } jcal_two_dof_t;

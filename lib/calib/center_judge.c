@@ -238,7 +238,7 @@ static jcal_center_bounds_t bounds_of(const jcal_center_config_t *cfg, const jca
 
 /// What is missing, if anything; the most important first.
 static void name_what_is_missing(const jcal_center_config_t *cfg, jcal_center_work_t *self,
-                                 const jcal_center_bounds_t *b, float hidden_m)
+                                 const jcal_center_bounds_t *b)
 {
     jcal_center_verdict_t *const verdict = &self->verdict;
     const jcal_center_sums_t *const sums = &self->sums;
@@ -256,10 +256,11 @@ static void name_what_is_missing(const jcal_center_config_t *cfg, jcal_center_wo
     if ((sums->turn1 < still) || (sums->turn2 < still)) {
         verdict->reason = (uint8_t)JCAL_REASON_NO_MOTION;
         verdict->hint = (uint8_t)((sums->turn1 < sums->turn2) ? JCAL_HINT_MOVE_SEGMENT1 : JCAL_HINT_MOVE_SEGMENT2);
-    } else if (bound(0.0f, hidden_m, cfg->mismatch_m) > limit) {
+    } else if (bound(0.0f, self->as.inverse.lasting_m, cfg->mismatch_m) > limit) {
         verdict->reason = (uint8_t)JCAL_REASON_DOES_NOT_FIT;
         verdict->hint = (uint8_t)JCAL_HINT_CHECK_SENSORS;
-    } else if (b[worse].second > limit) {
+    } else if (b[worse].second >
+               limit) { /* which is so too where noise hides too much: livelier motion shows more beside it */
         verdict->hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
     } else {
         verdict->hint = (uint8_t)JCAL_HINT_MORE_DIRECTIONS;
@@ -277,7 +278,8 @@ static void find_hidden(const jcal_center_config_t *cfg, jcal_center_work_t *sel
     const float lasting = (more > 1.0f) ? 1.0f : lasts;
     const float length = sqrtf(jcal_max(jcal_vec3_dot(place->r1, place->r1), jcal_vec3_dot(place->r2, place->r2)));
     self->verdict.misfit = sqrtf(share);
-    self->as.inverse.hidden_m = ((HIDDEN_SHARE * more * sqrtf(share * lasting)) + share) * length;
+    self->as.inverse.lasting_m = HIDDEN_SHARE * more * sqrtf(share * lasting) * length;
+    self->as.inverse.hidden_m = self->as.inverse.lasting_m + (share * length);
 }
 
 static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
@@ -287,7 +289,7 @@ static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
     const jcal_center_bounds_t unknown = unknown_bounds();
     const jcal_center_bounds_t b[2] = {enough ? self->as.inverse.bounds[0] : unknown,
                                        enough ? self->as.inverse.bounds[1] : unknown};
-    name_what_is_missing(cfg, self, b, self->as.inverse.hidden_m);
+    name_what_is_missing(cfg, self, b);
     verdict->bound1_m = b[0].all;
     verdict->bound2_m = b[1].all;
     verdict->weakest1_m = b[0].weakest;

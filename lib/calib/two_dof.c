@@ -91,6 +91,7 @@ void jcal_two_dof_begin_anew(jcal_two_dof_t *self, jcal_calibration_t status)
     self->moving_s = 0.0f;
     self->since_forgot_s = 0.0f;
     self->has_best = false;
+    self->recovers = self->recovers || (status == JCAL_MOVED);
     (void)memset(&self->watch, 0, sizeof self->watch);
     jcal_two_dof_verdict_begin(&self->verdict, status);
 }

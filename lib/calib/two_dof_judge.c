@@ -26,6 +26,9 @@
 /// A calibration that was ready and has not fitted for so many judgements is void.
 #define MISFITS_MAX 8u
 
+/// After a slip an orientation filter takes seconds to settle. What has not fitted for so many judgements then is given up, too.
+#define MISFITS_RECOVERING 16u
+
 /// Time over which the drift of the heading offset is averaged, s, and the largest that is believed, times what the config says.
 #define DRIFT_TIME_S 20.0f
 #define DRIFT_MAX 2.0f
@@ -104,16 +107,17 @@ void jcal_two_dof_judge(jcal_two_dof_t *self)
     jcal_two_dof_conclude(verdict, &self->cfg, &evidence, &self->search.agreed);
     if (verdict->reason != (uint8_t)JCAL_REASON_DOES_NOT_FIT) {
         self->search.misfits = 0u;
-    } else if (self->watch.on) {
+    } else if (self->watch.on || self->recovers) {
         self->search.misfits = (uint8_t)(self->search.misfits + 1u);
     } else {
         /* never did */
     }
-    if (self->search.misfits >= MISFITS_MAX) {
-        jcal_two_dof_begin_anew(self, JCAL_MOVED);
+    if (self->search.misfits >= (self->watch.on ? MISFITS_MAX : MISFITS_RECOVERING)) {
+        jcal_two_dof_begin_anew(self, self->watch.on ? JCAL_MOVED : (jcal_calibration_t)verdict->status);
         return;
     }
     if (verdict->status == (uint8_t)JCAL_READY) {
+        self->recovers = false;
         jcal_watch_start(&self->watch);
     }
 }
