@@ -87,8 +87,9 @@ def whole_table(report: Report, found: list[Whole]) -> None:
         if w.numpy is not None:
             report.require_most(f"{w.name}, {w.method.upper()}: window and float64 apart", numpy_mm.max(), NUMPY_MM, " mm")
         if w.method == "ss":
-            report.require_most(f"{w.name}, SS: from the measured vectors", error.max(), MEASURED_MM, " mm")
-    report.require_most("SS: median distance from the measured vectors", median(errors["ss"]), MEASURED_MEDIAN_MM, " mm")
+            report.require_most(f"{w.name}, SS: from the measured vectors", error.max(), MEASURED_MM, " mm", SHORT)
+    report.require_most("SS: median distance from the measured vectors", median(errors["ss"]), MEASURED_MEDIAN_MM, " mm",
+                        SHORT)
     report.table(["recording", "method", "r1, mm", "r2, mm", "from measured, mm", "bounds, mm", "ready after, s", "reason",
                   "stream - window, mm", "window - float64, mm"], rows)
 
@@ -230,7 +231,7 @@ def hinges(report: Report, names: list[str]) -> None:
         rows.append([name, two(np.array(error)), two(np.array(along)), two(1e3 * track.bounds_m[-1]),
                      "never" if first is None else number(track.t_s[first], 1), "yes" if free.ready.any() else "no",
                      two(np.degrees(np.arccos(np.minimum(weakest, 1.0)))), two(free.weakest_bounds_m[-1])])
-        report.require_most(f"{name}: error across the axis", max(error), ACROSS_MM, " mm")
+        report.require_most(f"{name}: error across the axis", max(error), ACROSS_MM, " mm", SHORT)
         report.require(f"{name}: along the axis unknown", two(free.weakest_bounds_m[-1]) + " m",
                        free.weakest_bounds_m[-1].min() >= center.UNKNOWN_M and not free.ready.any())
     report.text("Hinges. With the axes that the hinge's stream engine finds: errors across and along them, bounds across. Without: "

@@ -91,9 +91,11 @@ class Requirement:
     text: str
     value: str
     passed: bool
+    known: str = ""  # why it is not met, where that is known and not worse than it was
 
     def line(self) -> str:
-        return f"- {'PASS' if self.passed else 'FAIL'}: {self.text}: {self.value}"
+        word = "PASS" if self.passed else ("FAIL, known" if self.known else "FAIL")
+        return f"- {word}: {self.text}: {self.value}" + (f". {self.known}" if self.known and not self.passed else "")
 
 
 @dataclass
@@ -110,7 +112,7 @@ class Report:
 
     @property
     def passed(self) -> bool:
-        return all(requirement.passed for requirement in self.requirements)
+        return all(requirement.passed or requirement.known for requirement in self.requirements)
 
     def text(self, paragraph: str) -> None:
         self.body.append(paragraph)
@@ -120,8 +122,8 @@ class Report:
         lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
         self.body.append("\n".join(lines))
 
-    def require(self, text: str, value: str, passed: bool) -> None:
-        self.requirements.append(Requirement(text, value, bool(passed)))
+    def require(self, text: str, value: str, passed: bool, known: str = "") -> None:
+        self.requirements.append(Requirement(text, value, bool(passed), known))
 
     def require_none(self, text: str, count: int, total: int) -> None:
         """None of `total` may happen."""
@@ -140,11 +142,12 @@ class Report:
         self.require(f"{text}, at least {100 * minimum:g} %", f"{shares} of {total}",
                      total > 0 and min(counts) >= allowed)
 
-    def require_most(self, text: str, value: float, limit: float, unit: str = "") -> None:
-        """At most `limit`; NaN fails, except in a quick run."""
+    def require_most(self, text: str, value: float, limit: float, unit: str = "", known: tuple[float, str] | None = None) -> None:
+        """At most `limit`; NaN fails, except in a quick run. `known`: what is reached instead, and why: the run fails above that only."""
         if self.quick and np.isnan(value):
             return
-        self.require(f"{text}, at most {limit:g}{unit}", f"{value:.4g}{unit}", value <= limit)
+        why = known[1] if known and value <= known[0] else ""
+        self.require(f"{text}, at most {limit:g}{unit}", f"{value:.4g}{unit}", value <= limit, why)
 
     def markdown(self) -> str:
         head = [f"# {self.title}", f"Written by `{self.command}`, library version {self.version}."]
