@@ -27,6 +27,7 @@ DRAWS, DRAWN = 100, 500
 OPTICAL_SMOOTH_S = (0.0, 0.2, 0.5)
 MODEL = {"bias": 0.3, "reach_m": 0.3, "noise": (0.05, 0.01)}  # the library's defaults, for float64
 STREAM_WINDOW_MM, NUMPY_MM, MEASURED_MM, MEASURED_MEDIAN_MM, PARTS_MM, DRAWS_MM, ACROSS_MM = 3.0, 0.1, 10.0, 7.0, 3.0, 2.0, 5.0
+SHORT = 15.0, "The measured vectors are 5 % short"  # METHOD_CENTER.md, section 6: reached instead, mm, and why
 
 
 @functools.cache
