@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Tests of jointcal/chain.h: hip and knee together, what ties them, what is never ready, and the interface.
+#include "calib/center_judge.h"
 #include "calib/chain_tie.h"
 #include "chain_motion.h"
 #include "jointcal/vec3.h"
+#include "math/chol.h"
 #include "math/sym.h"
 
 #include <string.h>
@@ -175,6 +177,61 @@ static void the_thighs_accelerometer_has_one_bias(void)
     }
 }
 
+/* Before any tie each vector's covariance has the radius that the joint states, less the fixed part; the bias is the thigh's. */
+static void what_is_tied_is_what_the_joints_state(void)
+{
+    const chain_motion_t m = chain_lively(2);
+    jcal_chain_state_t state;
+    run(&m, 0.0, 20.0);
+    TEST_ASSERT_TRUE(jcal_chain_collect(&engine, &state));
+    static const size_t first[4] = {JCAL_CHAIN_AT_HIP, JCAL_CHAIN_AT_HIP_THIGH, JCAL_CHAIN_AT_KNEE_THIGH,
+                                    JCAL_CHAIN_AT_KNEE_SHANK};
+    const float stated[4] = {engine.hip.work.verdict.bound1_m, engine.hip.work.verdict.bound2_m,
+                             engine.knee.work.verdict.bound1_m, engine.knee.work.verdict.bound2_m};
+    for (size_t i = 0u; i < 4u; ++i) {
+        float c[6];
+        for (size_t k = 0u; k < 3u; ++k) {
+            for (size_t l = 0u; l <= k; ++l) {
+                c[jcal_sym_at(k, l)] = state.covariance[jcal_sym_at(first[i] + k, first[i] + l)];
+            }
+        }
+        const float radius = jcal_center_radius_across(c, jcal_vec3(0.0f, 0.0f, 0.0f));
+        const float expected = stated[i] - config.center.mismatch_m; /* of a matrix that may be some samples older */
+        TEST_ASSERT_FLOAT_WITHIN(0.1f * expected, expected, radius);
+    }
+    const jcal_center_t *const joints[2] = {&engine.hip, &engine.knee};
+    static const size_t bias[2] = {JCAL_CHAIN_AT_HIP_BIAS, JCAL_CHAIN_AT_KNEE_BIAS}, unknown[2] = {9u, 6u};
+    for (size_t joint = 0u; joint < 2u; ++joint) {
+        float diagonal[3];
+        for (size_t k = 0u; k < 3u; ++k) {
+            const jcal_center_inverse_t *const inverse = &joints[joint]->work.as.inverse;
+            float column[JCAL_CENTER_UNKNOWNS] = {0.0f};
+            column[unknown[joint] + k] = 1.0f;
+            jcal_chol_solve_scaled(inverse->factor, JCAL_CENTER_UNKNOWNS, inverse->scale, column);
+            diagonal[k] = column[unknown[joint] + k];
+        }
+        for (size_t k = 1u; k < 3u; ++k) {
+            const float tied = state.covariance[jcal_sym_at(bias[joint] + k, bias[joint] + k)] /
+                               state.covariance[jcal_sym_at(bias[joint], bias[joint])];
+            TEST_ASSERT_FLOAT_WITHIN(1e-4f * tied, diagonal[k] / diagonal[0], tied);
+        }
+    }
+}
+
+static void a_joint_that_does_not_fit_is_not_made_ready_by_small_bounds(void)
+{
+    const chain_motion_t m = chain_lively(2);
+    run(&m, 0.0, 25.0);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result().status);
+    engine.hip.work.verdict.status = (uint8_t)JCAL_COLLECTING;
+    engine.hip.work.verdict.reason = (uint8_t)JCAL_REASON_DOES_NOT_FIT;
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result().status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_DOES_NOT_FIT, result().reason);
+    engine.hip.work.verdict.reason =
+        (uint8_t)JCAL_REASON_UNCERTAIN; /* then what ties both may have made it small enough */
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result().status);
+}
+
 /* Against the least-squares solution of two unknowns, by hand: x0 of variance 4, x1 of variance 1, x0 - x1 = 3 of variance 4. */
 static void an_observation_moves_what_is_known_worse(void)
 {
@@ -330,6 +387,8 @@ int main(void)
     RUN_TEST(a_known_length_is_kept);
     RUN_TEST(a_length_that_contradicts_the_data_is_left_out_and_never_ready);
     RUN_TEST(the_thighs_accelerometer_has_one_bias);
+    RUN_TEST(what_is_tied_is_what_the_joints_state);
+    RUN_TEST(a_joint_that_does_not_fit_is_not_made_ready_by_small_bounds);
     RUN_TEST(an_observation_moves_what_is_known_worse);
     RUN_TEST(the_plane_pulls_both_centres_towards_it);
     RUN_TEST(a_stiff_hip_is_never_ready);

@@ -74,6 +74,20 @@ static void a_slip_is_noticed_and_the_new_axes_are_found(void)
     }
 }
 
+/* Residuals as large as those of skin: their power alone would not show so small a slip. */
+static void a_small_slip_behind_noise_is_noticed_too(void)
+{
+    for (int sensor = 0; sensor < 2; ++sensor) {
+        motion_t motion = motion_lively(1);
+        motion.gyr_noise_rad_s = 0.1;
+        setUp();
+        run(&engine, &motion, 0, 3u * RUN);
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+        const motion_t after = slipped(&motion, sensor, across(&motion, sensor), 9.0 * (double)JCAL_RAD_PER_DEG);
+        TEST_ASSERT_TRUE(until(&after, 3u * RUN, (3u * RUN) + SOON, JCAL_MOVED) < ((3u * RUN) + SOON));
+    }
+}
+
 static void a_turn_about_the_axis_changes_nothing(void)
 {
     const motion_t motion = motion_lively(2);
@@ -130,6 +144,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(a_slip_is_noticed_and_the_new_axes_are_found);
+    RUN_TEST(a_small_slip_behind_noise_is_noticed_too);
     RUN_TEST(a_turn_about_the_axis_changes_nothing);
     RUN_TEST(livelier_and_noisier_motion_is_no_slip);
     RUN_TEST(rest_and_a_stiff_joint_are_no_slip);

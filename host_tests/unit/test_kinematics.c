@@ -146,6 +146,57 @@ static void biases_turn_with_their_sensor(void)
     TEST_ASSERT_GREATER_THAN_INT(20, seen);
 }
 
+/* Turning fast about one axis in gravity that does not turn: in frames that do not turn it stays where it was. */
+static void frames_that_do_not_turn_stay_for_a_second_of_fast_motion(void)
+{
+    const double rate = 14.0, dt = 0.02;
+    jcal_kinematic_t out;
+    jcal_vec3_t begin = {0.0f, 0.0f, 0.0f};
+    int count = 0;
+    jcal_kinematics_begin(&chain);
+    for (int k = 0; k < 60; ++k) {
+        const double angle = rate * dt * k;
+        const jcal_imu_t imu = {jcal_vec3(0.0f, 0.0f, (float)rate),
+                                jcal_vec3((float)(9.81 * cos(angle)), (float)(-9.81 * sin(angle)), 0.0f)};
+        const jcal_pair_t pair = {(uint64_t)(k * 20000 + 1000), imu, imu};
+        if (jcal_kinematics_put(&chain, &SMOOTHED, &pair, NULL, &out)) {
+            begin = (count == 0) ? out.body1.a : begin;
+            TEST_ASSERT_FLOAT_WITHIN(0.01f, begin.x, out.body1.a.x); /* 1 mrad */
+            TEST_ASSERT_FLOAT_WITHIN(0.01f, begin.y, out.body1.a.y);
+            TEST_ASSERT_FLOAT_WITHIN(0.01f, begin.y, out.body2.a.y);
+            ++count;
+        }
+    }
+    TEST_ASSERT_TRUE(count >= 4);
+}
+
+/* q and -q are the same orientation, and filters may send either. */
+static void the_sign_of_an_orientation_does_not_matter(void)
+{
+    const center_motion_t m = center_lively(2);
+    jcal_kinematic_t with, without;
+    jcal_kinematics_t other;
+    jcal_kinematics_begin(&chain);
+    jcal_kinematics_begin(&other);
+    int count = 0;
+    for (uint32_t k = 0; k < 200u; ++k) {
+        jcal_pair_t pair = center_sample(&m, k);
+        pair.t_us = (uint64_t)k * 10000u; /* two samples a bin */
+        const jcal_quat_t q = jcal_quat_normalise(jcal_quat(0.3f, 0.5f, -0.7f, 0.4f));
+        const jcal_attitudes_t one = {q, q};
+        const jcal_attitudes_t two = {((k % 2u) == 0u) ? q : jcal_quat(-q.w, -q.x, -q.y, -q.z), q};
+        const bool made = jcal_kinematics_put(&chain, &FIVE_POINT, &pair, &one, &without);
+        TEST_ASSERT_EQUAL_INT(made, jcal_kinematics_put(&other, &FIVE_POINT, &pair, &two, &with));
+        if (made) {
+            TEST_ASSERT_FLOAT_WITHIN(1e-4f, without.body1.a.x, with.body1.a.x);
+            TEST_ASSERT_FLOAT_WITHIN(1e-4f, without.body1.a.y, with.body1.a.y);
+            TEST_ASSERT_FLOAT_WITHIN(1e-4f, without.body1.a.z, with.body1.a.z);
+            ++count;
+        }
+    }
+    TEST_ASSERT_TRUE(count > 50);
+}
+
 static void k_is_what_cross_products_say(void)
 {
     /* 50 Hz, rates that grow evenly: the derivative is exact, and nothing is smoothed */
@@ -284,6 +335,8 @@ int main(void)
     RUN_TEST(the_order_of_the_derivatives_shows);
     RUN_TEST(in_earth_frames_vectors_agree);
     RUN_TEST(biases_turn_with_their_sensor);
+    RUN_TEST(frames_that_do_not_turn_stay_for_a_second_of_fast_motion);
+    RUN_TEST(the_sign_of_an_orientation_does_not_matter);
     RUN_TEST(k_is_what_cross_products_say);
     RUN_TEST(bins_last_about_20_ms_at_any_rate);
     RUN_TEST(a_smoothed_sample_comes_once_per_block);

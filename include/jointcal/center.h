@@ -134,7 +134,6 @@ typedef struct {
     float misfit;                        ///< As in the result.
     uint8_t status, weak, hint, reason;  ///< As in the result.
     uint8_t agreed;                      ///< Judgements in a row that found nothing missing.
-    bool open;                           ///< More than one direction is beyond its limit.
 } jcal_center_verdict_t;
 
 /// Private: bounds of one sensor's vector, m.

@@ -183,25 +183,35 @@ static void find_fake(jcal_center_work_t *self)
     }
 }
 
-/// Takes information that wrong rows may have made out of a covariance c (3 x 3, packed) of one sensor's vector; `own` is y there.
-static void deflate(const jcal_center_work_t *self, size_t sensor, const float *own, float *c)
+/// The doubtful direction as far as it is one of this sensor's vector, m, in any measure.
+static jcal_vec3_t doubtful(const jcal_center_work_t *self, size_t sensor)
+{
+    const float *const z = &self->as.inverse.fake[3u * sensor];
+    return jcal_vec3_scale(jcal_vec3(z[0], z[1], z[2]), 1.0f / wrong_row(&self->sums, sensor));
+}
+
+/// Takes information that wrong rows may have made out of a covariance c (3 x 3, packed) of one sensor's vector. An open direction
+/// leaves each sensor's vector open by its part in it.
+static void deflate(const jcal_center_work_t *self, size_t sensor, float *c)
 {
     const float share = self->as.inverse.fake_share;
+    const jcal_vec3_t y = doubtful(self, sensor);
+    const jcal_vec3_t other = doubtful(self, 1u - sensor);
+    const float own[3] = {y.x, y.y, y.z};
     float by_matrix = 0.0f;
     for (size_t i = 0u; i < 3u; ++i) {
         by_matrix += self->as.inverse.columns[(3u * sensor) + i][(3u * sensor) + i];
     }
     const float left = 1.0f - share;
     const float more = share * ((1.0f / (left * left)) - 1.0f) * ((c[0] + c[2] + c[5]) / jcal_max(by_matrix, FLT_MIN));
-    const float length2 = (own[0] * own[0]) + (own[1] * own[1]) + (own[2] * own[2]);
-    const float open = JCAL_BOUND_UNKNOWN_M * JCAL_BOUND_UNKNOWN_M / jcal_max(length2, FLT_MIN);
+    const float length2 = jcal_vec3_dot(y, y) + jcal_vec3_dot(other, other);
+    const float open = 2.0f * JCAL_BOUND_UNKNOWN_M * JCAL_BOUND_UNKNOWN_M / jcal_max(length2, FLT_MIN);
     jcal_sym_rank1(c, 3u, own, (share < FAKE_SHARE_MAX) ? more : open);
 }
 
 /// Whether the doubtful direction of one sensor's vector is the known hinge axis: then it is open as is to be expected.
-static bool is_along_axis(const float *y, jcal_vec3_t axis)
+static bool is_along_axis(jcal_vec3_t own, jcal_vec3_t axis)
 {
-    const jcal_vec3_t own = jcal_vec3(y[0], y[1], y[2]);
     const float along = jcal_vec3_dot(own, axis);
     return (along * along) > (ALONG_COSINE2 * jcal_vec3_dot(own, own));
 }
@@ -211,15 +221,12 @@ static jcal_center_bounds_t bounds_of(const jcal_center_config_t *cfg, const jca
     const jcal_center_inverse_t *const inverse = &self->as.inverse;
     const jcal_vec3_t axis = (sensor == 0u) ? cfg->hinge_axis1 : cfg->hinge_axis2;
     const float mismatch_m = cfg->mismatch_m;
-    const float by_row = 1.0f / wrong_row(&self->sums, sensor);
-    const float *const z = &inverse->fake[3u * sensor];
-    const float own[3] = {by_row * z[0], by_row * z[1], by_row * z[2]};
     const bool by_scatter = radius(inverse->covariance[sensor]) > radius(inverse->least[sensor]);
     float known[6];
     float larger[6];
     (void)memcpy(known, by_scatter ? inverse->covariance[sensor] : inverse->least[sensor], sizeof known);
     (void)memcpy(larger, known, sizeof larger);
-    deflate(self, sensor, own, larger);
+    deflate(self, sensor, larger);
     float values[3];
     float vectors[9];
     jcal_center_bounds_t b = unknown_bounds();
@@ -229,7 +236,7 @@ static jcal_center_bounds_t bounds_of(const jcal_center_config_t *cfg, const jca
     b.direction = jcal_vec3(vectors[0], vectors[1], vectors[2]);
     b.weakest = bound(NORMAL_95 * sqrtf(jcal_max(values[0], 0.0f)), inverse->hidden_m, mismatch_m);
     b.second = bound(NORMAL_95 * sqrtf(jcal_max(values[1], 0.0f)), inverse->hidden_m, mismatch_m);
-    if (!is_along_axis(own, axis)) {
+    if (!is_along_axis(doubtful(self, sensor), axis)) {
         (void)memcpy(known, larger, sizeof known);
     }
     b.all = bound(jcal_center_radius_across(known, axis), inverse->hidden_m, mismatch_m);

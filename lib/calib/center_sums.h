@@ -4,7 +4,7 @@
 ///
 /// Rows are linearised where the estimate is when their sample comes in: with the estimate within centimetres of the truth the row
 /// changes by a few percent. Matrix, gradient, cost and the scatter of the gradient over blocks of time move with the estimate by
-/// the quadratic model. Biases have a Gaussian prior, positions one of a metre, so that the matrix always has an inverse.
+/// the quadratic model. Biases have a Gaussian prior, positions one of 0.3 m, so that the matrix always has an inverse.
 #ifndef JCAL_CENTER_SUMS_H
 #define JCAL_CENTER_SUMS_H
 
