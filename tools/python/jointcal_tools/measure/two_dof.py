@@ -121,11 +121,12 @@ def window_row(length_s: int, constraint: str, mine: list[Outcome]) -> list:
     informative = [o for o in mine if o.informative]
     ready = [o for o in mine if o.ready]
     axes = np.array([o.errors[:2] for o in ready]).ravel()
+    bounds = np.array([o.bounds[:2] for o in ready]).ravel()
     first = [o.covered_first for o in mine if o.covered_first is not None]
     reasons = Counter(o.reason for o in informative if not o.ready)
     return [f"{length_s} s", constraint, len(mine), len(informative),
             percent(sum(o.ready for o in informative), len(informative)), sum(o.false_ready for o in mine),
-            number(median(axes)), number(quantile(axes, 0.9)), number(median([o.errors[2] for o in ready])),
+            number(median(axes)), number(quantile(axes, 0.9)), number(median(bounds)), number(median([o.errors[2] for o in ready])),
             number(quantile([o.errors[2] for o in ready], 0.9)),
             *(percent(sum(c[k] for c in first), len(first)) for k in range(3)),
             ", ".join(f"{name} {count}" for name, count in reasons.most_common()) or "-"]
@@ -286,7 +287,7 @@ def measure(settings: Settings, report: Report) -> None:
     groups = {(length_s, constraint): [o for o in outcomes if (o.length_s, o.constraint) == (length_s, constraint)]
               for length_s in LENGTHS_S for constraint in CONSTRAINTS}
     report.table(["length", "constraint", "windows", "informative", "of these ready", "false ready", "axis median",
-                  "axis 90 %", "heading median", "heading 90 %", "cover 1", "cover 2", "cover h", "reasons"],
+                  "axis 90 %", "axis bound, median", "heading median", "heading 90 %", "cover 1", "cover 2", "cover h", "reasons"],
                  [window_row(*key, mine) for key, mine in groups.items()])
     for (length_s, constraint), mine in groups.items():
         report.require_none(f"{constraint}, {length_s} s: false ready", sum(o.false_ready for o in mine), len(mine))
