@@ -125,6 +125,19 @@ static void rest_and_a_stiff_joint_are_no_slip(void)
     TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
 }
 
+/* The accelerometers' residual follows the motion; however much it is made to weigh, it is no slip. */
+static void accelerometers_that_weigh_much_are_no_slip(void)
+{
+    motion_t motion = motion_lively(5);
+    motion.rate_hz = 25.0;
+    motion.speed = 0.3;
+    motion.joint_speed = 0.3;
+    config.acc_noise_m_s2 = 0.05f;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_init(&engine, &config));
+    TEST_ASSERT_TRUE(until(&motion, 0, RUN, JCAL_READY) < RUN);
+    TEST_ASSERT_EQUAL_UINT32(3u * RUN, until(&motion, RUN, 3u * RUN, JCAL_MOVED));
+}
+
 static void a_knock_is_no_slip(void)
 {
     const motion_t motion = motion_lively(2);
@@ -148,6 +161,7 @@ int main(void)
     RUN_TEST(a_turn_about_the_axis_changes_nothing);
     RUN_TEST(livelier_and_noisier_motion_is_no_slip);
     RUN_TEST(rest_and_a_stiff_joint_are_no_slip);
+    RUN_TEST(accelerometers_that_weigh_much_are_no_slip);
     RUN_TEST(a_knock_is_no_slip);
     return UNITY_END();
 }

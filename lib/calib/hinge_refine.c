@@ -297,15 +297,13 @@ static void add_block(jcal_hinge_refine_t *self, float reach)
     }
     const float trace = told[0] + told[1];
     float tilts[TILTS];
-    for (unsigned i = 0u; i < TILTS; ++i) {
-        score[i] += block->acc_score[i];
-    }
     less_biases(self, score, tilts);
-    jcal_sym_rank1(self->scatter, TILTS, tilts, 1.0f);
     for (unsigned i = 0u; i < TILTS; ++i) {
-        self->slip.gradient[i] += tilts[i];
+        self->slip.gradient[i] += tilts[i]; /* of the rates alone, like its matrix */
+        tilts[i] += block->acc_score[i];
         self->lean[i] += trace * tilts[i];
     }
+    jcal_sym_rank1(self->scatter, TILTS, tilts, 1.0f);
     self->slip.units += block->units;
     self->slip.time_s += block->time_s;
     self->information += trace;
