@@ -601,14 +601,14 @@ static void memory_has_a_limit_and_a_shorter_one_with_headings(void)
         config.memory_s = 100.0f;
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
         bool halved = false;
-        for (uint32_t k = 0; (k < 600u) && !halved; ++k) {
+        for (uint32_t k = 0; (k < 320u) && !halved; ++k) {
             const jcal_pair_t pair = center_sample(&m, k);
             const jcal_attitudes_t attitudes = attitudes_of(&m, k, 0.5);
             const float before_s = engine.work.sums.time_s;
             TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_push_oriented(&engine, &pair, &attitudes));
             (void)jcal_center_step(&engine);
-            halved = (k > 500u) && (engine.work.sums.time_s < before_s);
-            if (k == 500u) {
+            halved = (k > 300u) && (engine.work.sums.time_s < before_s);
+            if (k == 300u) {
                 TEST_ASSERT_TRUE(engine.has_point);
                 engine.work.sums.time_s = limits[which] - 0.11f; /* as if that had passed */
             }
@@ -653,14 +653,14 @@ static bool leaves_a_wrong_place(const center_motion_t *m, uint32_t samples, boo
 static void sums_begin_anew_where_the_data_want_them_but_for_what_is_ready(void)
 {
     const center_motion_t m = center_lively(1);
-    TEST_ASSERT_TRUE(leaves_a_wrong_place(&m, 700u, false));
+    TEST_ASSERT_TRUE(leaves_a_wrong_place(&m, 500u, false));
     const jcal_center_point_t *const p = &engine.work.sums.point;
     TEST_ASSERT_TRUE(center_error(p->place.r1, m.r1) < 0.05);
     TEST_ASSERT_TRUE(center_error(p->place.r2, m.r2) < 0.05);
     TEST_ASSERT_EQUAL_MEMORY(&p->place, &engine.work.sums.anchor, sizeof p->place);
     TEST_ASSERT_EQUAL_FLOAT(0.05f, p->b1.y); /* kept: only the place was wrong by more than a step could mend */
     TEST_ASSERT_EQUAL_FLOAT(-0.05f, p->b2.z);
-    TEST_ASSERT_FALSE(leaves_a_wrong_place(&m, 700u, true));
+    TEST_ASSERT_FALSE(leaves_a_wrong_place(&m, 500u, true));
 }
 
 static void rejected_samples_are_counted_and_break_the_chain(void)
