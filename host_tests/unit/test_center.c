@@ -565,6 +565,20 @@ static void moments_are_weighted_by_the_noise_of_the_difference_of_squares(void)
     TEST_ASSERT_TRUE(fabs((double)moments[jcal_sym_at(12u, 12u)] - sums[2]) < 1e-4 * sums[2]);
 }
 
+static void moments_of_the_memory_count_half(void)
+{
+    const center_motion_t m = center_lively(2);
+    config.memory_s = 10.0f;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
+    run(&engine, &m, 0.0, 0.4);
+    engine.moving_s = config.memory_s; /* as if there had been no start in all that time */
+    const float before = engine.work.as.moments[jcal_sym_at(12u, 12u)];
+    run(&engine, &m, 0.4, 0.421);
+    const float after = engine.work.as.moments[jcal_sym_at(12u, 12u)];
+    TEST_ASSERT_TRUE((after >= 0.5f * before) && (after < 0.7f * before)); /* and one sample more */
+    TEST_ASSERT_FLOAT_WITHIN(0.02f, 5.0f, engine.moving_s);
+}
+
 /* The sample with which the sums begin. */
 static uint32_t begin_of_sums(float acc_noise_m_s2)
 {
@@ -707,6 +721,7 @@ int main(void)
     RUN_TEST(every_field_out_of_its_range_is_named);
     RUN_TEST(a_sample_is_slow_if_both_sensors_are);
     RUN_TEST(moments_are_weighted_by_the_noise_of_the_difference_of_squares);
+    RUN_TEST(moments_of_the_memory_count_half);
     RUN_TEST(a_start_takes_residuals_for_as_large_as_they_are);
     RUN_TEST(memory_has_a_limit_and_a_shorter_one_with_headings);
     RUN_TEST(sums_begin_anew_where_the_data_want_them_but_for_what_is_ready);

@@ -166,23 +166,28 @@ static double bound_of(double radius)
     return 0.002 + sqrt(radius * radius + hidden * hidden);
 }
 
-/* Compares the bounds of one sensor; without an axis. */
-static void assert_bounds(int sensor, const double_matrix_t *larger, const double *y, double share)
+/* Without the information that wrong rows made, errors of one sensor's vector along y are larger by 1 / (1 - share). */
+static void add_doubt(int sensor, const double *y, double share, double c[3][3])
 {
-    const double none[3] = {0.0, 0.0, 0.0};
     const double_matrix_t inverse = double_inverse_of(&work.sums);
     double own[3][3];
-    double c[3][3];
     double_block(&inverse, sensor, 1.0, own);
-    double_block(larger, sensor, 1.0, c);
     const double size = (c[0][0] + c[1][1] + c[2][2]) / (own[0][0] + own[1][1] + own[2][2]);
-    /* without the information that wrong rows made, errors along y are larger by 1 / (1 - share) */
     const double more = share * (1.0 / ((1.0 - share) * (1.0 - share)) - 1.0) * size;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j < 3; ++j) {
             c[i][j] += more * y[3 * sensor + i] * y[3 * sensor + j];
         }
     }
+}
+
+/* Compares the bounds of one sensor; without an axis. */
+static void assert_bounds(int sensor, const double_matrix_t *larger, const double *y, double share)
+{
+    const double none[3] = {0.0, 0.0, 0.0};
+    double c[3][3];
+    double_block(larger, sensor, 1.0, c);
+    add_doubt(sensor, y, share, c);
     const jcal_center_bounds_t *const b = &work.as.inverse.bounds[sensor];
     const double all = bound_of(double_radius(c, none));
     double values[2];
@@ -206,6 +211,46 @@ static void bounds_are_of_the_larger_covariance_without_what_wrong_rows_told(voi
         TEST_ASSERT_TRUE(is_near(share, (double)work.as.inverse.fake_share, 2e-3 * share));
         assert_bounds(0, (which == 0) ? &by_scatter : &least, y, share);
         assert_bounds(1, (which == 0) ? &by_scatter : &least, y, share);
+    }
+}
+
+/* A unit vector `angle` away from v. */
+static jcal_vec3_t beside(const double *v, double angle)
+{
+    const double length = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    const double flat = sqrt(v[0] * v[0] + v[1] * v[1]);
+    const double across[3] = {-v[1] / flat, v[0] / flat, 0.0};
+    float out[3];
+    for (int i = 0; i < 3; ++i) {
+        out[i] = (float)(cos(angle) * v[i] / length + sin(angle) * across[i]);
+    }
+    return jcal_vec3(out[0], out[1], out[2]);
+}
+
+static void a_doubtful_direction_near_the_known_axis_is_the_axis(void)
+{
+    double y[6];
+    work.sums = double_sums(3, 0.25, 3.0);
+    const double share = expect_doubt(y);
+    for (int which = 0; which < 2; ++which) {
+        /* 18 deg are between 15 and 21 */
+        config.hinge_axis1 = beside(&y[0], (which == 0) ? 0.26 : 0.37);
+        config.hinge_axis2 = beside(&y[3], (which == 0) ? 0.37 : 0.26);
+        const jcal_vec3_t axes[2] = {config.hinge_axis1, config.hinge_axis2};
+        double_matrix_t by_scatter;
+        double_matrix_t least;
+        judge_to_bounds();
+        expect_covariances(&by_scatter, &least);
+        for (int sensor = 0; sensor < 2; ++sensor) {
+            const double axis[3] = {(double)axes[sensor].x, (double)axes[sensor].y, (double)axes[sensor].z};
+            double c[3][3];
+            double_block(&by_scatter, sensor, 1.0, c);
+            if (sensor != which) {
+                add_doubt(sensor, y, share, c);
+            }
+            const double expected = bound_of(double_radius(c, axis));
+            TEST_ASSERT_TRUE(is_near(expected, (double)work.as.inverse.bounds[sensor].all, 2e-3 * expected));
+        }
     }
 }
 
@@ -364,6 +409,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(covariances_are_those_of_scatter_and_of_rows);
     RUN_TEST(bounds_are_of_the_larger_covariance_without_what_wrong_rows_told);
+    RUN_TEST(a_doubtful_direction_near_the_known_axis_is_the_axis);
     RUN_TEST(a_direction_that_wrong_rows_may_have_told_is_open);
     RUN_TEST(what_is_hidden_is_the_lasting_part_of_what_is_unexplained);
     RUN_TEST(the_step_goes_to_the_minimum);

@@ -201,6 +201,34 @@ static void a_full_window_holds_the_last_samples_and_ends_with_the_newest(void)
     }
 }
 
+static void the_first_step_takes_50_samples(void)
+{
+    const center_motion_t m = center_lively(2);
+    for (uint32_t k = 0; k < 80u; ++k) {
+        const jcal_pair_t pair = center_sample(&m, k);
+        (void)jcal_center_window_update(&engine, &pair);
+        TEST_ASSERT_EQUAL_INT(engine.count >= 50u, result_of(&engine).has_center);
+    }
+    TEST_ASSERT_TRUE(engine.count >= 50u);
+}
+
+static void rest_tells_the_watch_nothing(void)
+{
+    center_motion_t m = center_lively(2);
+    run(&m, 0.0, 2.0);
+    m.base = 0.0;
+    m.joint = 0.0;
+    m.carried = 0.0;
+    float recent = 0.0f;
+    for (uint32_t k = 100u; k < 140u; ++k) {
+        jcal_pair_t pair = center_sample(&m, k);
+        pair.imu1.acc_m_s2 = jcal_vec3_scale(pair.imu1.acc_m_s2, 1.2f); /* nothing that fits */
+        (void)jcal_center_window_update(&engine, &pair);
+        recent = (k == 120u) ? engine.watch.recent[0] : recent;
+    }
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, recent, engine.watch.recent[0]);
+}
+
 static void no_step_is_longer_than_30_cm(void)
 {
     const center_motion_t m = center_lively(2);
@@ -356,6 +384,8 @@ int main(void)
     RUN_TEST(motion_that_leaves_something_open_is_never_ready);
     RUN_TEST(slow_samples_are_left_out_if_asked_for);
     RUN_TEST(a_full_window_holds_the_last_samples_and_ends_with_the_newest);
+    RUN_TEST(the_first_step_takes_50_samples);
+    RUN_TEST(rest_tells_the_watch_nothing);
     RUN_TEST(no_step_is_longer_than_30_cm);
     RUN_TEST(judgements_are_half_a_second_apart);
     RUN_TEST(the_heading_is_the_best_one_at_the_estimate);

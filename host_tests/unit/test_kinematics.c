@@ -221,6 +221,24 @@ static void a_hole_begins_a_new_chain(void)
     TEST_ASSERT_EQUAL_UINT32(6u, feed(&m, 8, 20, &FIVE_POINT, &s)); /* one was lost */
 }
 
+static void a_distance_that_is_too_short_begins_a_new_chain(void)
+{
+    uint64_t t_us = 0u;
+    uint32_t seen = 0u;
+    for (uint32_t k = 0; k < 18u;
+         ++k) { /* seven samples at 50 Hz, then 100 Hz: one sets the distance, five bins of two follow */
+        jcal_pair_t pair;
+        jcal_kinematic_t s;
+        memset(&pair, 0, sizeof pair);
+        pair.t_us = t_us;
+        const bool has = jcal_kinematics_put(&chain, &FIVE_POINT, &pair, NULL, &s);
+        TEST_ASSERT_EQUAL_INT((k == 5u) || (k == 6u) || (k == 17u), has);
+        seen += has ? 1u : 0u;
+        t_us += (k < 6u) ? 20000u : 10000u;
+    }
+    TEST_ASSERT_EQUAL_UINT32(3u, seen);
+}
+
 static void blocks_bridge_a_short_hole_and_no_long_one(void)
 {
     const center_motion_t m = center_lively(4);
@@ -269,6 +287,8 @@ static void frames_follow_a_fast_even_turn(void)
     TEST_ASSERT_FLOAT_WITHIN(2e-5f, (float)sine, s.body1.turn[0].y);
     TEST_ASSERT_FLOAT_WITHIN(2e-5f, 1.0f, s.body1.turn[2].z);
     TEST_ASSERT_TRUE(s.body2.turn[0].y < -0.1f); /* the other way round */
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 64.0f, s.body1.rate2);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 16.0f, s.body2.rate2);
 }
 
 static void an_orientation_and_its_negative_in_one_bin_are_the_same(void)
@@ -350,6 +370,7 @@ int main(void)
     RUN_TEST(a_smoothed_sample_comes_once_per_block);
     RUN_TEST(a_result_belongs_to_the_middle_bin);
     RUN_TEST(a_hole_begins_a_new_chain);
+    RUN_TEST(a_distance_that_is_too_short_begins_a_new_chain);
     RUN_TEST(blocks_bridge_a_short_hole_and_no_long_one);
     RUN_TEST(jitter_is_no_hole);
     RUN_TEST(frames_follow_a_fast_even_turn);
