@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Tests of jointcal/center.h: what the stream engine finds, what it never finds, and its interface.
+#include "calib/center_input.h"
+#include "calib/center_model.h"
 #include "center_motion.h"
 #include "jointcal/center.h"
 #include "jointcal/vec3.h"
+#include "math/sym.h"
 
 #include <string.h>
 #include <unity.h>
@@ -502,6 +505,178 @@ static void every_field_out_of_its_range_is_named(void)
     TEST_ASSERT_NULL(jcal_center_config_check(&c));
 }
 
+/* How many samples of 20 readings with steady rates about z count as slow. */
+static int slow_ones(float rate1, float rate2)
+{
+    static jcal_center_input_t input;
+    jcal_center_input_begin(&input);
+    config.min_rate_rad_s = 0.5f;
+    config.kinematics.smoothing_s = 0.0f;
+    int slow = 0;
+    int samples = 0;
+    for (uint32_t k = 0; k < 20u; ++k) {
+        const float wobble = 1e-3f * (float)center_noise(k, 1u); /* readings that never change are refused */
+        const jcal_pair_t pair = {20000u * (uint64_t)k,
+                                  {{0.0f, 0.0f, rate1 + wobble}, {wobble, 0.0f, 9.81f + wobble}},
+                                  {{0.0f, 0.0f, rate2 + wobble}, {wobble, 0.0f, 9.81f + wobble}}};
+        jcal_kinematic_t sample;
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_input_push(&input, &config, &pair, NULL));
+        const jcal_center_input_event_t event = jcal_center_input_take(&input, &config, &sample);
+        slow += (event == JCAL_CENTER_SLOW) ? 1 : 0;
+        samples += ((event == JCAL_CENTER_SLOW) || (event == JCAL_CENTER_SAMPLE)) ? 1 : 0;
+    }
+    TEST_ASSERT_EQUAL_INT(15, samples);
+    return slow;
+}
+
+static void a_sample_is_slow_if_both_sensors_are(void)
+{
+    TEST_ASSERT_EQUAL_INT(15, slow_ones(0.4f, 0.4f));
+    TEST_ASSERT_EQUAL_INT(0, slow_ones(0.6f, 0.1f));
+    TEST_ASSERT_EQUAL_INT(0, slow_ones(0.1f, 0.6f));
+    TEST_ASSERT_EQUAL_INT(0, slow_ones(0.6f, 0.6f));
+}
+
+static void moments_are_weighted_by_the_noise_of_the_difference_of_squares(void)
+{
+    const center_motion_t m = center_lively(2);
+    jcal_kinematics_t chain;
+    jcal_kinematics_begin(&chain);
+    double sums[3] = {0.0, 0.0, 0.0};
+    for (uint32_t k = 0; k < 24u; ++k) { /* less than half a second of motion: no work yet */
+        const jcal_pair_t pair = center_sample(&m, k);
+        jcal_kinematic_t s;
+        (void)jcal_center_update(&engine, &pair);
+        if (jcal_kinematics_put(&chain, &config.kinematics, &pair, NULL, &s)) {
+            float f[JCAL_CENTER_FEATURES];
+            jcal_center_features(&s, f);
+            /* |a1|^2 - |a2|^2 = (|a1| - |a2|) (|a1| + |a2|): the noise of |a1| - |a2| times their sum, one reading in 0.1 s */
+            const double noise = 0.05 * ((double)jcal_vec3_norm(s.body1.a) + (double)jcal_vec3_norm(s.body2.a));
+            const double weight = (double)s.dt_s / 0.1 / (noise * noise);
+            sums[0] += weight * (double)f[0] * (double)f[0];
+            sums[1] += weight * (double)f[1] * (double)f[0];
+            sums[2] += weight * (double)f[12] * (double)f[12];
+        }
+    }
+    const float *const moments = engine.work.as.moments;
+    TEST_ASSERT_TRUE(sums[2] > 0.0);
+    TEST_ASSERT_TRUE(fabs((double)moments[0] - sums[0]) < 1e-4 * sums[0]);
+    TEST_ASSERT_TRUE(fabs((double)moments[jcal_sym_at(1u, 0u)] - sums[1]) < 1e-3 * fabs(sums[1]));
+    TEST_ASSERT_TRUE(fabs((double)moments[jcal_sym_at(12u, 12u)] - sums[2]) < 1e-4 * sums[2]);
+}
+
+static void moments_of_the_memory_count_half(void)
+{
+    const center_motion_t m = center_lively(2);
+    config.memory_s = 10.0f;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
+    run(&engine, &m, 0.0, 0.4);
+    engine.moving_s = config.memory_s; /* as if there had been no start in all that time */
+    const float before = engine.work.as.moments[jcal_sym_at(12u, 12u)];
+    run(&engine, &m, 0.4, 0.421);
+    const float after = engine.work.as.moments[jcal_sym_at(12u, 12u)];
+    TEST_ASSERT_TRUE((after >= 0.5f * before) && (after < 0.7f * before)); /* and one sample more */
+    TEST_ASSERT_FLOAT_WITHIN(0.02f, 5.0f, engine.moving_s);
+}
+
+/* The sample with which the sums begin. */
+static uint32_t begin_of_sums(float acc_noise_m_s2)
+{
+    center_motion_t m = center_lively(1);
+    m.noise = 0.1;
+    m.base = 0.1; /* so little motion that it takes a while to be known */
+    m.joint = 0.1;
+    config.acc_noise_m_s2 = acc_noise_m_s2;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
+    for (uint32_t k = 0; k < 500u; ++k) {
+        const jcal_pair_t pair = center_sample(&m, k);
+        (void)jcal_center_update(&engine, &pair);
+        if (engine.has_point) {
+            return k;
+        }
+    }
+    return 0u;
+}
+
+static void a_start_takes_residuals_for_as_large_as_they_are(void)
+{
+    /* of readings that are noisier than either config says: whichever it says, the same is known */
+    const uint32_t begin = begin_of_sums(1.0f / 512.0f);
+    TEST_ASSERT_GREATER_THAN_UINT32(100u, begin);
+    TEST_ASSERT_EQUAL_UINT32(begin, begin_of_sums(1.0f / 32.0f));
+}
+
+static void memory_has_a_limit_and_a_shorter_one_with_headings(void)
+{
+    const float limits[2] = {100.0f, 60.0f}; /* lengths; orientations with the same config */
+    const center_motion_t m = center_lively(1);
+    for (int which = 0; which < 2; ++which) {
+        config.method = (which == 0) ? JCAL_CENTER_SS : JCAL_CENTER_LS;
+        config.memory_s = 100.0f;
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
+        bool halved = false;
+        for (uint32_t k = 0; (k < 320u) && !halved; ++k) {
+            const jcal_pair_t pair = center_sample(&m, k);
+            const jcal_attitudes_t attitudes = attitudes_of(&m, k, 0.5);
+            const float before_s = engine.work.sums.time_s;
+            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_push_oriented(&engine, &pair, &attitudes));
+            (void)jcal_center_step(&engine);
+            halved = (k > 300u) && (engine.work.sums.time_s < before_s);
+            if (k == 300u) {
+                TEST_ASSERT_TRUE(engine.has_point);
+                engine.work.sums.time_s = limits[which] - 0.11f; /* as if that had passed */
+            }
+            TEST_ASSERT_TRUE(engine.work.sums.time_s < limits[which] + 0.001f);
+        }
+        TEST_ASSERT_TRUE(halved);
+        TEST_ASSERT_FLOAT_WITHIN(0.1f, 0.5f * limits[which], engine.work.sums.time_s);
+    }
+}
+
+/* Begins the sums 0.25 m off the truth and with biases that are not there; false if they never begin anew within `samples`. */
+static bool leaves_a_wrong_place(const center_motion_t *m, uint32_t samples, bool is_ready)
+{
+    config.max_bound_m = 0.001f;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
+    bool displaced = false;
+    for (uint32_t k = 0; k < samples; ++k) {
+        const jcal_pair_t pair = center_sample(m, k);
+        const float before_s = engine.work.sums.time_s;
+        const float before_m = engine.work.sums.point.place.r1.x;
+        (void)jcal_center_update(&engine, &pair);
+        if (engine.has_point && (engine.work.sums.time_s < before_s)) {
+            TEST_ASSERT_TRUE(before_s > 4.0f);
+            TEST_ASSERT_TRUE(fabs((double)before_m - m->r1[0]) > 0.2); /* it stays until it jumps */
+            return true;
+        }
+        if (engine.has_start && !displaced) {
+            engine.start.r1.x += 0.25f;
+            displaced = true;
+        }
+        if (engine.has_point && (engine.work.sums.time_s == 0.0f)) {
+            engine.work.sums.point.b1.y = 0.05f;
+            engine.work.sums.point.b2.z = -0.05f;
+        }
+        if (is_ready) {
+            engine.work.verdict.status = (uint8_t)JCAL_READY;
+        }
+    }
+    return false;
+}
+
+static void sums_begin_anew_where_the_data_want_them_but_for_what_is_ready(void)
+{
+    const center_motion_t m = center_lively(1);
+    TEST_ASSERT_TRUE(leaves_a_wrong_place(&m, 500u, false));
+    const jcal_center_point_t *const p = &engine.work.sums.point;
+    TEST_ASSERT_TRUE(center_error(p->place.r1, m.r1) < 0.05);
+    TEST_ASSERT_TRUE(center_error(p->place.r2, m.r2) < 0.05);
+    TEST_ASSERT_EQUAL_MEMORY(&p->place, &engine.work.sums.anchor, sizeof p->place);
+    TEST_ASSERT_EQUAL_FLOAT(0.05f, p->b1.y); /* kept: only the place was wrong by more than a step could mend */
+    TEST_ASSERT_EQUAL_FLOAT(-0.05f, p->b2.z);
+    TEST_ASSERT_FALSE(leaves_a_wrong_place(&m, 500u, true));
+}
+
 static void rejected_samples_are_counted_and_break_the_chain(void)
 {
     const center_motion_t m = center_lively(3);
@@ -544,6 +719,12 @@ int main(void)
     RUN_TEST(a_full_inbox_says_so);
     RUN_TEST(null_is_refused);
     RUN_TEST(every_field_out_of_its_range_is_named);
+    RUN_TEST(a_sample_is_slow_if_both_sensors_are);
+    RUN_TEST(moments_are_weighted_by_the_noise_of_the_difference_of_squares);
+    RUN_TEST(moments_of_the_memory_count_half);
+    RUN_TEST(a_start_takes_residuals_for_as_large_as_they_are);
+    RUN_TEST(memory_has_a_limit_and_a_shorter_one_with_headings);
+    RUN_TEST(sums_begin_anew_where_the_data_want_them_but_for_what_is_ready);
     RUN_TEST(rejected_samples_are_counted_and_break_the_chain);
     return UNITY_END();
 }

@@ -389,6 +389,120 @@ static void moving_the_estimate_is_summing_there(void)
     TEST_ASSERT_EQUAL_FLOAT(p.place.r1.x, sums.anchor.r1.x + (sums.point.place.r1.x - q.place.r1.x));
 }
 
+static jcal_center_point_t oriented_point(float heading_rad)
+{
+    jcal_center_point_t at = {.place = {{0.1f, -0.2f, 0.05f}, {-0.03f, 0.08f, 0.2f}}, .is_oriented = true};
+    at.heading.re = (float)cos((double)heading_rad);
+    at.heading.im = (float)sin((double)heading_rad);
+    return at;
+}
+
+/* Rz(heading) v in double. */
+static void turn_about_z(double heading, const double *v, double *out)
+{
+    out[0] = cos(heading) * v[0] - sin(heading) * v[1];
+    out[1] = sin(heading) * v[0] + cos(heading) * v[1];
+    out[2] = v[2];
+}
+
+/* R1 (a1 - K1 r1) - Rz R2 (a2 - K2 r2) in double, `times` both vectors. */
+static void vector_residual(const jcal_kinematic_t *s, const jcal_center_point_t *at, double heading, double times,
+                            double *e)
+{
+    const jcal_center_place_t *const p = &at->place;
+    const double none[3] = {0.0, 0.0, 0.0};
+    const double r1[3] = {times * (double)p->r1.x, times * (double)p->r1.y, times * (double)p->r1.z};
+    const double r2[3] = {times * (double)p->r2.x, times * (double)p->r2.y, times * (double)p->r2.z};
+    double v1[3];
+    double v2[3];
+    double turned[3];
+    remaining(&s->body1, r1, none, v1);
+    remaining(&s->body2, r2, none, v2);
+    turn_about_z(heading, v2, turned);
+    for (int i = 0; i < 3; ++i) {
+        e[i] = v1[i] - turned[i];
+    }
+}
+
+static void residuals_with_orientations_are_differences_of_vectors(void)
+{
+    for (unsigned n = 0u; n < SAMPLES; n += 5u) {
+        const float heading = 0.4f * (float)n;
+        const jcal_center_point_t at = oriented_point(heading);
+        double e[3];
+        double apart[3];
+        vector_residual(&samples[n], &at, (double)heading, 1.0, e);
+        vector_residual(&samples[n], &at, (double)heading, 0.0, apart); /* both sensors on the joint */
+        for (unsigned part = 0u; part < JCAL_CENTER_PARTS; ++part) {
+            jcal_center_residual_t r;
+            jcal_center_residual_oriented(&samples[n], &at, part, &r);
+            TEST_ASSERT_TRUE(fabs((double)r.e - e[part]) < 1e-4);
+            TEST_ASSERT_TRUE(fabs((double)r.e_apart - apart[part]) < 1e-4);
+        }
+    }
+}
+
+static void a_sample_with_orientations_is_the_mean_of_its_three_residuals(void)
+{
+    jcal_center_config_t cfg = jcal_center_config_default();
+    cfg.method = JCAL_CENTER_LS;
+    const float most[2] = {1e9f, 25.0f};
+    for (int which = 0; which < 2; ++which) {
+        const jcal_center_point_t at = oriented_point(0.7f);
+        jcal_center_sums_t sums;
+        jcal_center_sums_begin_oriented(&sums, &at.place, at.heading);
+        double e[3];
+        double expected = 0.0;
+        jcal_center_residual_t r;
+        jcal_center_residual_oriented(&samples[4], &at, 0u, &r);
+        vector_residual(&samples[4], &at, (double)0.7f, 1.0, e);
+        for (int part = 0; part < 3; ++part) {
+            expected += fmin(e[part] * e[part] / (0.0025 + 1e-4 * (double)r.turn2), (double)most[which]) / 3.0;
+        }
+        const double square = (double)jcal_center_sums_take(&sums, &cfg, &samples[4], most[which]);
+        TEST_ASSERT_TRUE(fabs(square - expected) < 1e-3 * expected);
+        TEST_ASSERT_EQUAL_FLOAT(samples[4].dt_s, sums.time_s); /* once for all three */
+        TEST_ASSERT_TRUE(fabs((double)sums.noise - 3.0 * (double)samples[4].dt_s / READING_S) < 1e-4);
+    }
+}
+
+/* Blocks' gradients before and after a step, summed by hand: what the gradient changes by is shared out evenly over all time. */
+static void closed_blocks_move_by_their_share_of_the_time(void)
+{
+    const double first[3] = {3.0, -2.0, 5.0};
+    const double second[3] = {1.0, 4.0, -6.0};
+    const double h[3] = {100.0, 200.0, 300.0};
+    const float d[12] = {0.03f, -0.02f, 0.01f};
+    jcal_center_sums_t sums;
+    memset(&sums, 0, sizeof sums);
+    sums.blocks = 2.0f;
+    sums.time_s = 1.25f; /* two blocks and half of the third */
+    sums.block_s = 0.25f;
+    sums.cost = 50.0f;
+    sums.noise = 50.0f;
+    for (unsigned i = 0; i < 3u; ++i) {
+        sums.matrix[jcal_sym_at(i, i)] = (float)h[i];
+        sums.closed[i] = (float)(first[i] + second[i]);
+        sums.block[i] = 1.0f;
+        sums.gradient[i] = sums.closed[i] + 1.0f;
+        for (unsigned j = 0; j <= i; ++j) {
+            sums.scatter[jcal_sym_at(i, j)] = (float)(first[i] * first[j] + second[i] * second[j]);
+        }
+    }
+    jcal_center_sums_move(&sums, d);
+    double a[3];
+    double b[3];
+    for (unsigned i = 0; i < 3u; ++i) {
+        a[i] = first[i] + 0.4 * h[i] * (double)d[i]; /* 0.5 s of 1.25 s */
+        b[i] = second[i] + 0.4 * h[i] * (double)d[i];
+        TEST_ASSERT_TRUE(fabs((double)sums.closed[i] - a[i] - b[i]) < 1e-4);
+        TEST_ASSERT_TRUE(fabs((double)sums.block[i] - 1.0 - 0.2 * h[i] * (double)d[i]) < 1e-4);
+        for (unsigned j = 0; j <= i; ++j) {
+            TEST_ASSERT_TRUE(fabs((double)sums.scatter[jcal_sym_at(i, j)] - a[i] * a[j] - b[i] * b[j]) < 1e-3);
+        }
+    }
+}
+
 static void a_large_step_drops_the_blocks_and_no_more(void)
 {
     const jcal_center_config_t cfg = jcal_center_config_default();
@@ -462,6 +576,9 @@ int main(void)
     RUN_TEST(sums_are_weighted_sums_of_rows);
     RUN_TEST(absolute_differences_weigh_large_ones_less);
     RUN_TEST(moving_the_estimate_is_summing_there);
+    RUN_TEST(residuals_with_orientations_are_differences_of_vectors);
+    RUN_TEST(a_sample_with_orientations_is_the_mean_of_its_three_residuals);
+    RUN_TEST(closed_blocks_move_by_their_share_of_the_time);
     RUN_TEST(a_large_step_drops_the_blocks_and_no_more);
     RUN_TEST(the_gradient_has_the_priors_pull);
     RUN_TEST(halving_keeps_the_estimate_of_the_spread);

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Tests of jointcal/center_window.h: what the window engine finds, what it never finds, and its interface.
+#include "calib/center_model.h"
 #include "center_motion.h"
 #include "jointcal/center_window.h"
+#include "jointcal/vec3.h"
 
 #include <string.h>
 #include <unity.h>
@@ -173,6 +175,141 @@ static void slow_samples_are_left_out_if_asked_for(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, result_of(&engine).reason);
 }
 
+/* The sample that came `age` after the oldest of a full window. */
+static const jcal_kinematic_t *kept(uint32_t age)
+{
+    return &((const jcal_kinematic_t *)engine.storage)[(engine.next + age) % N_MAX];
+}
+
+static void a_full_window_holds_the_last_samples_and_ends_with_the_newest(void)
+{
+    const center_motion_t m = center_lively(2);
+    run(&m, 0.0, 6.6); /* 330 of 300 */
+    for (int k = 0; k < 3; ++k) {
+        const jcal_center_point_t before = engine.work.sums.point;
+        const jcal_pair_t pair = center_sample(&m, 330u + (uint32_t)k);
+        (void)jcal_center_window_update(&engine, &pair);
+        TEST_ASSERT_EQUAL_UINT32(N_MAX, engine.count);
+        for (uint32_t age = 1u; age < N_MAX; ++age) {
+            TEST_ASSERT_TRUE(kept(age)->t_us - kept(age - 1u)->t_us == 20000u);
+        }
+        jcal_center_residual_t r;
+        TEST_ASSERT_TRUE(jcal_center_residual(kept(N_MAX - 1u), &before, &r));
+        TEST_ASSERT_EQUAL_FLOAT(r.e, engine.work.sums.recent[0][3]);
+        TEST_ASSERT_TRUE(jcal_center_residual(kept(N_MAX - 2u), &before, &r));
+        TEST_ASSERT_EQUAL_FLOAT(r.e, engine.work.sums.recent[0][2]);
+    }
+}
+
+static void the_first_step_takes_50_samples(void)
+{
+    const center_motion_t m = center_lively(2);
+    for (uint32_t k = 0; k < 80u; ++k) {
+        const jcal_pair_t pair = center_sample(&m, k);
+        (void)jcal_center_window_update(&engine, &pair);
+        TEST_ASSERT_EQUAL_INT(engine.count >= 50u, result_of(&engine).has_center);
+    }
+    TEST_ASSERT_TRUE(engine.count >= 50u);
+}
+
+static void rest_tells_the_watch_nothing(void)
+{
+    center_motion_t m = center_lively(2);
+    run(&m, 0.0, 2.0);
+    m.base = 0.0;
+    m.joint = 0.0;
+    m.carried = 0.0;
+    float recent = 0.0f;
+    for (uint32_t k = 100u; k < 140u; ++k) {
+        jcal_pair_t pair = center_sample(&m, k);
+        pair.imu1.acc_m_s2 = jcal_vec3_scale(pair.imu1.acc_m_s2, 1.2f); /* nothing that fits */
+        (void)jcal_center_window_update(&engine, &pair);
+        recent = (k == 120u) ? engine.watch.recent[0] : recent;
+    }
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, recent, engine.watch.recent[0]);
+}
+
+static void no_step_is_longer_than_30_cm(void)
+{
+    const center_motion_t m = center_lively(2);
+    run(&m, 0.0, 4.0);
+    engine.work.sums.point.place.r1.x += 2.0f;
+    const jcal_center_place_t before = engine.work.sums.point.place;
+    run(&m, 4.0, 4.021);
+    const jcal_vec3_t d1 = jcal_vec3_sub(engine.work.sums.point.place.r1, before.r1);
+    const jcal_vec3_t d2 = jcal_vec3_sub(engine.work.sums.point.place.r2, before.r2);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.3f, sqrtf(jcal_vec3_dot(d1, d1) + jcal_vec3_dot(d2, d2)));
+    TEST_ASSERT_TRUE(d1.x < 0.0f);
+}
+
+static void judgements_are_half_a_second_apart(void)
+{
+    const center_motion_t m = center_lively(2);
+    run(&m, 0.0, 5.0);
+    float before_m = result_of(&engine).uncertainty1_m;
+    uint32_t last = 0u;
+    int judgements = 0;
+    for (uint32_t k = 250u; k < 350u; ++k) {
+        const jcal_pair_t pair = center_sample(&m, k);
+        (void)jcal_center_window_update(&engine, &pair);
+        const float now_m = result_of(&engine).uncertainty1_m;
+        if (now_m != before_m) {
+            TEST_ASSERT_TRUE((last == 0u) || (k - last == 25u));
+            last = k;
+            ++judgements;
+        }
+        before_m = now_m;
+    }
+    TEST_ASSERT_EQUAL_INT(4, judgements);
+}
+
+/* a - K r in double. */
+static void felt(const jcal_body_t *body, jcal_vec3_t r, double *out)
+{
+    const double by[3] = {(double)r.x, (double)r.y, (double)r.z};
+    out[0] = (double)body->a.x;
+    out[1] = (double)body->a.y;
+    for (int i = 0; i < 3; ++i) {
+        out[0] -= (double)body->k[i].x * by[i];
+        out[1] -= (double)body->k[i].y * by[i];
+    }
+}
+
+static void the_heading_is_the_best_one_at_the_estimate(void)
+{
+    const center_motion_t m = center_lively(3);
+    config.center.method = JCAL_CENTER_LS;
+    config.n_max = 60u;
+    begin();
+    jcal_center_place_t at = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
+    for (uint32_t k = 0; k < 90u; ++k) {
+        const double t_s = (double)k / m.rate_hz;
+        const jcal_pair_t pair = center_sample(&m, k);
+        const pose_quat_t other = pose_mul(pose_turn(-0.8, 0.0, 0.0, 1.0), center_orientation(&m, 2, t_s));
+        const jcal_attitudes_t attitudes = {pose_single(center_orientation(&m, 1, t_s)), pose_single(other)};
+        if (k == 89u) {
+            engine.work.sums.point.place.r2.x += 1.0f; /* so far off that the heading is another one */
+            at = engine.work.sums.point.place;
+        }
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_window_push_oriented(&engine, &pair, &attitudes));
+        (void)jcal_center_window_step(&engine);
+    }
+    double along = 0.0;
+    double across = 0.0;
+    for (uint32_t i = 0; i < 60u; ++i) {
+        const jcal_kinematic_t *const s = &((const jcal_kinematic_t *)engine.storage)[i];
+        double f1[2];
+        double f2[2];
+        felt(&s->body1, at.r1, f1);
+        felt(&s->body2, at.r2, f2);
+        along += f1[0] * f2[0] + f1[1] * f2[1];
+        across += f1[1] * f2[0] - f1[0] * f2[1];
+    }
+    const double expected = atan2(across, along);
+    TEST_ASSERT_TRUE(pose_apart(expected, 0.8) > 0.02);
+    TEST_ASSERT_TRUE(pose_apart(expected, (double)result_of(&engine).heading_offset_rad) < 1e-3);
+}
+
 static void a_copy_goes_on_alike(void)
 {
     const center_motion_t m = center_lively(1);
@@ -246,6 +383,12 @@ int main(void)
     RUN_TEST(knocks_hardly_matter_to_absolute_differences);
     RUN_TEST(motion_that_leaves_something_open_is_never_ready);
     RUN_TEST(slow_samples_are_left_out_if_asked_for);
+    RUN_TEST(a_full_window_holds_the_last_samples_and_ends_with_the_newest);
+    RUN_TEST(the_first_step_takes_50_samples);
+    RUN_TEST(rest_tells_the_watch_nothing);
+    RUN_TEST(no_step_is_longer_than_30_cm);
+    RUN_TEST(judgements_are_half_a_second_apart);
+    RUN_TEST(the_heading_is_the_best_one_at_the_estimate);
     RUN_TEST(a_copy_goes_on_alike);
     RUN_TEST(wrong_arguments_are_refused);
     return UNITY_END();

@@ -229,7 +229,8 @@ static void bins_last_about_20_ms_at_any_rate(void)
     const struct {
         double rate_hz;
         double bin_s;
-    } cases[] = {{25.0, 0.04}, {50.0, 0.02}, {60.0, 1.0 / 60.0}, {100.0, 0.02}, {200.0, 0.02}, {400.0, 0.02}};
+    } cases[] = {{25.0, 0.04},  {50.0, 0.02},  {60.0, 1.0 / 60.0}, {80.0, 0.025},
+                 {100.0, 0.02}, {200.0, 0.02}, {400.0, 0.02}};
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; ++i) {
         center_motion_t m = center_lively(2);
         m.rate_hz = cases[i].rate_hz;
@@ -271,6 +272,24 @@ static void a_hole_begins_a_new_chain(void)
     TEST_ASSERT_EQUAL_UINT32(6u, feed(&m, 8, 20, &FIVE_POINT, &s)); /* one was lost */
 }
 
+static void a_distance_that_is_too_short_begins_a_new_chain(void)
+{
+    uint64_t t_us = 0u;
+    uint32_t seen = 0u;
+    for (uint32_t k = 0; k < 18u;
+         ++k) { /* seven samples at 50 Hz, then 100 Hz: one sets the distance, five bins of two follow */
+        jcal_pair_t pair;
+        jcal_kinematic_t s;
+        memset(&pair, 0, sizeof pair);
+        pair.t_us = t_us;
+        const bool has = jcal_kinematics_put(&chain, &FIVE_POINT, &pair, NULL, &s);
+        TEST_ASSERT_EQUAL_INT((k == 5u) || (k == 6u) || (k == 17u), has);
+        seen += has ? 1u : 0u;
+        t_us += (k < 6u) ? 20000u : 10000u;
+    }
+    TEST_ASSERT_EQUAL_UINT32(3u, seen);
+}
+
 static void blocks_bridge_a_short_hole_and_no_long_one(void)
 {
     const center_motion_t m = center_lively(4);
@@ -292,6 +311,68 @@ static void jitter_is_no_hole(void)
         out += jcal_kinematics_put(&chain, &FIVE_POINT, &pair, NULL, &s) ? 1u : 0u;
     }
     TEST_ASSERT_EQUAL_UINT32(100u - 5u, out);
+}
+
+static void frames_follow_a_fast_even_turn(void)
+{
+    /* 8 rad/s about z: 0.16 rad from bin to bin, four blocks of five, each the mean of its cosines and sines */
+    const double weights[4] = {0.125, 0.375, 0.375, 0.125};
+    double cosine = 0.0;
+    double sine = 0.0;
+    for (int k = 0; k < 20; ++k) {
+        cosine += 0.2 * weights[k / 5] * cos(0.16 * k);
+        sine += 0.2 * weights[k / 5] * sin(0.16 * k);
+    }
+    jcal_kinematic_t s = {0};
+    bool has = false;
+    for (uint32_t k = 0; (k < 40u) && !has; ++k) {
+        jcal_pair_t pair;
+        memset(&pair, 0, sizeof pair);
+        pair.t_us = UINT64_C(20000) * (uint64_t)k;
+        pair.imu1.gyr_rad_s.z = 8.0f;
+        pair.imu2.gyr_rad_s.z = -4.0f;
+        has = jcal_kinematics_put(&chain, &SMOOTHED, &pair, NULL, &s);
+    }
+    TEST_ASSERT_TRUE(has);
+    TEST_ASSERT_FLOAT_WITHIN(2e-5f, (float)cosine, s.body1.turn[0].x);
+    TEST_ASSERT_FLOAT_WITHIN(2e-5f, (float)sine, s.body1.turn[0].y);
+    TEST_ASSERT_FLOAT_WITHIN(2e-5f, 1.0f, s.body1.turn[2].z);
+    TEST_ASSERT_TRUE(s.body2.turn[0].y < -0.1f); /* the other way round */
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 64.0f, s.body1.rate2);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 16.0f, s.body2.rate2);
+}
+
+static void an_orientation_and_its_negative_in_one_bin_are_the_same(void)
+{
+    const jcal_quat_t q = pose_single(pose_any(3));
+    const jcal_vec3_t force = {1.0f, -2.0f, 9.0f};
+    const jcal_vec3_t expected = jcal_quat_rotate(q, force);
+    jcal_kinematic_t s = {0};
+    bool has = false;
+    for (uint32_t k = 0; (k < 40u) && !has; ++k) { /* 200 Hz: four in a bin */
+        const float sign = ((k % 2u) == 0u) ? 1.0f : -1.0f;
+        const jcal_quat_t same = jcal_quat(sign * q.w, sign * q.x, sign * q.y, sign * q.z);
+        const jcal_attitudes_t attitudes = {same, q};
+        const jcal_pair_t pair = {
+            UINT64_C(5000) * (uint64_t)k, {{0.0f, 0.0f, 0.0f}, force}, {{0.0f, 0.0f, 0.0f}, force}};
+        has = jcal_kinematics_put(&chain, &FIVE_POINT, &pair, &attitudes, &s);
+    }
+    TEST_ASSERT_TRUE(has);
+    TEST_ASSERT_TRUE(jcal_vec3_norm(jcal_vec3_sub(s.body1.a, expected)) < 1e-5f);
+    TEST_ASSERT_TRUE(jcal_vec3_norm(jcal_vec3_sub(s.body2.a, expected)) < 1e-5f);
+}
+
+static void bins_are_as_far_apart_as_their_middles(void)
+{
+    /* 100 Hz, two in a bin; the last sample 4 ms late moves the middle of its bin by 2 ms, 80 ms after that of the first */
+    jcal_kinematic_t s = {0};
+    for (uint32_t k = 0; k < 11u; ++k) {
+        jcal_pair_t pair;
+        memset(&pair, 0, sizeof pair);
+        pair.t_us = (UINT64_C(10000) * (uint64_t)k) + ((k == 10u) ? 4000u : 0u);
+        TEST_ASSERT_EQUAL_INT(k == 10u, jcal_kinematics_put(&chain, &FIVE_POINT, &pair, NULL, &s));
+    }
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.082f / 4.0f, s.dt_s);
 }
 
 static void smoothing_lowers_the_noise_of_the_residual(void)
@@ -342,8 +423,12 @@ int main(void)
     RUN_TEST(a_smoothed_sample_comes_once_per_block);
     RUN_TEST(a_result_belongs_to_the_middle_bin);
     RUN_TEST(a_hole_begins_a_new_chain);
+    RUN_TEST(a_distance_that_is_too_short_begins_a_new_chain);
     RUN_TEST(blocks_bridge_a_short_hole_and_no_long_one);
     RUN_TEST(jitter_is_no_hole);
+    RUN_TEST(frames_follow_a_fast_even_turn);
+    RUN_TEST(an_orientation_and_its_negative_in_one_bin_are_the_same);
+    RUN_TEST(bins_are_as_far_apart_as_their_middles);
     RUN_TEST(smoothing_lowers_the_noise_of_the_residual);
     return UNITY_END();
 }
