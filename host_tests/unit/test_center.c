@@ -216,6 +216,7 @@ static void exchanged_sensors_give_the_exchanged_result(void)
                           (double)a.joint_to_sensor1_m.z};
     const double r2[3] = {(double)a.joint_to_sensor2_m.x, (double)a.joint_to_sensor2_m.y,
                           (double)a.joint_to_sensor2_m.z};
+    printf("%g %g\n", center_error(b.joint_to_sensor2_m, r1), center_error(b.joint_to_sensor1_m, r2));
     TEST_ASSERT_TRUE(center_error(b.joint_to_sensor2_m, r1) < 1e-4);
     TEST_ASSERT_TRUE(center_error(b.joint_to_sensor1_m, r2) < 1e-4);
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, a.uncertainty1_m,

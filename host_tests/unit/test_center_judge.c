@@ -9,10 +9,9 @@
 
 #include <unity.h>
 
-#define SLICE_COVARIANCE 7u
-#define SLICE_DOUBTS 13u
-#define SLICE_BOUNDS 14u
-#define SLICE_VERDICT 16u
+#define SLICE_DOUBTS (JCAL_CENTER_JUDGE_SLICES - 4u)
+#define SLICE_BOUNDS (JCAL_CENTER_JUDGE_SLICES - 3u)
+#define SLICE_VERDICT (JCAL_CENTER_JUDGE_SLICES - 1u)
 
 static jcal_center_config_t config;
 static jcal_center_work_t work;
@@ -315,7 +314,6 @@ static void the_step_goes_to_the_minimum(void)
 {
     work.sums = double_sums(2, 0.5, 1.0);
     double gradient[DN];
-    float d[DN];
     for (int i = 0; i < DN; ++i) {
         work.sums.gradient[i] = (float)center_noise(7u, (uint32_t)i);
         gradient[i] = (double)work.sums.gradient[i];
@@ -327,14 +325,15 @@ static void the_step_goes_to_the_minimum(void)
     for (int i = 0; i < 6; ++i) {
         gradient[i] += prior.m[i][i] * (double)x[i];
     }
-    TEST_ASSERT_TRUE(jcal_center_judge(&config, &work, 0u));
-    jcal_center_solve(&config, &work, d);
+    TEST_ASSERT_TRUE(jcal_center_judge(&config, &work, JCAL_CENTER_SLICE_SCALE));
+    TEST_ASSERT_TRUE(jcal_center_judge(&config, &work, JCAL_CENTER_SLICE_FACTOR));
+    jcal_center_solve(&config, &work);
     for (int i = 0; i < DN; ++i) {
         double expected = 0.0;
         for (int k = 0; k < DN; ++k) {
             expected -= inverse.m[i][k] * gradient[k];
         }
-        TEST_ASSERT_TRUE(is_near(expected, (double)d[i], 1e-3 * (fabs(expected) + 0.01)));
+        TEST_ASSERT_TRUE(is_near(expected, (double)work.as.inverse.step[i], 1e-3 * (fabs(expected) + 0.01)));
     }
 }
 
@@ -408,6 +407,19 @@ static void what_is_missing_is_named(void)
     assert_verdict(JCAL_WEAK_CENTER1, JCAL_REASON_NO_MOTION, JCAL_HINT_MOVE_SEGMENT1);
 }
 
+static void what_does_not_last_may_hide_an_error_too(void)
+{
+    work.sums = double_sums(1, 0.5, 1.0);
+    work.sums.effect = 2000.0f;
+    work.sums.lagged = 0.0f;
+    judge_to_bounds();
+    const double share = 220.0 / 2000.0;
+    const double length = sqrt(0.03 * 0.03 + 0.2 * 0.2 + 0.04 * 0.04);
+    /* as if 0.15 of it lasted */
+    TEST_ASSERT_TRUE(is_near((0.65 * sqrt(share * 0.15) + share) * length, (double)work.as.inverse.hidden_m, 1e-5));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, work.as.inverse.lasting_m);
+}
+
 static void noise_alone_is_no_misfit(void)
 {
     work.sums = double_sums(1, 0.5, 1.0);
@@ -447,6 +459,7 @@ int main(void)
     RUN_TEST(ready_takes_three_judgements_and_is_lost_beyond_a_fifth_more);
     RUN_TEST(a_few_blocks_tell_no_bounds);
     RUN_TEST(what_is_missing_is_named);
+    RUN_TEST(what_does_not_last_may_hide_an_error_too);
     RUN_TEST(noise_alone_is_no_misfit);
     RUN_TEST(progress_is_the_share_of_the_way_to_the_bound);
     return UNITY_END();

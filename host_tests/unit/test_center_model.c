@@ -290,6 +290,7 @@ static jcal_center_sums_t summed(const jcal_center_config_t *cfg, const jcal_cen
         TEST_ASSERT_TRUE(jcal_center_residual(&samples[n], &sums.point, &r));
         jcal_center_sums_add(&sums, cfg, &r, samples[n].dt_s);
         jcal_center_sums_advance(&sums, &samples[n]);
+        (void)jcal_center_sums_close(&sums);
     }
     return sums;
 }

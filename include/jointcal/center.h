@@ -144,9 +144,16 @@ typedef struct {
 
 /// Private: work on the covariance of one state of the sums, a slice at a time.
 typedef struct {
-    float factor[78];        ///< Of the sums' matrix, prior included, scaled.
-    float scale[12];         ///< Its scale.
-    float columns[6][12];    ///< Columns of its inverse that belong to r1 and r2.
+    float factor[78];  ///< Of the sums' matrix, prior included, scaled.
+    float scale[12];   ///< Its scale.
+    bool is_factored;  ///< There is a factor.
+    float step[12];    ///< The Gauss-Newton step from it.
+    union {
+        struct {
+            float matrix[78], scale[12];
+        } next;                ///< What the next factor is made of ...
+        float columns[6][12];  ///< ... and then those columns of the inverse that belong to r1 and r2.
+    } of;
     float covariance[2][6];  ///< Of r1 and of r2, packed, from the scatter ...
     float least[2][6];       ///< ... and what it is at least, from the matrix.
     float fake[6];           ///< Direction of whose information the largest share may be none, scaled ...

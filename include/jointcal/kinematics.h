@@ -78,11 +78,11 @@ typedef struct {
     uint8_t blocks;      ///< ... blocks in `block` ...
     uint8_t next_block;  ///< ... and where the next one goes.
     bool has_middle;
-    uint32_t middle_us;                ///< Time of the middle bin ...
-    jcal_vec3_t middle1, middle2;      ///< ... its rates, rad/s ...
-    jcal_quat_t turn1, turn2;          ///< ... and how both frames turn to where they were when the blocks began.
-    jcal_bodies_t block[JCAL_BLOCKS];  ///< Sums over the bins of a block.
-    jcal_bodies_t filling;             ///< The block that is being filled.
+    uint32_t middle_us;            ///< Time of the middle bin ...
+    jcal_vec3_t middle1, middle2;  ///< ... its rates, rad/s ...
+    jcal_quat_t turn1, turn2;      ///< ... and how both frames turn to where they were when the blocks began.
+    jcal_bodies_t
+        block[JCAL_BLOCKS];  ///< Sums over the bins of a block; the one being filled takes the place of the oldest.
 } jcal_kinematics_t;
 
 #ifdef __cplusplus

@@ -9,6 +9,7 @@
 #include "calib/center_sums.h"
 #include "calib/watch.h"
 #include "jointcal/vec3.h"
+#include "math/clear.h"
 #include "math/scalar.h"
 #include "math/solve.h"
 #include "math/sym.h"
@@ -16,7 +17,6 @@
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 /// Motion that the moments hold before their minimum is a start, s: with a standard deviation below START_M, else later.
 #define MOVING_MIN_S 0.5f
@@ -29,6 +29,8 @@
 /// turn. If more data than that of SETTLED_S want it further away, the sums begin anew where they want it.
 #define LINEAR_M_S2 0.5f
 #define SETTLED_S 4.0f
+/// Blocks in the sums before the estimate moves away from the start: of less data steps go far astray, and rows are linearised there.
+#define BLOCKS_MIN 4.0f
 /// Longest memory with orientations, s: their heading offset drifts.
 #define HEADING_MEMORY_S 60.0f
 /// Time from which the first heading offset is taken, s.
@@ -40,11 +42,10 @@
 /// Turns of the cycle before there is an estimate: gradient, rows of the matrix, step, and whether that arrived.
 #define TURN_START_STEP (JCAL_CENTER_PLACE_UNKNOWNS + 1u)
 #define TURNS_START (TURN_START_STEP + 2u)
-/// Turns of the cycle after that: the slices of the judgement, the estimate's step after the first of them.
-#define TURN_FACTOR 0u
-#define TURN_STEP 1u
-#define TURN_COLUMNS 2u
-#define TURNS (TURN_COLUMNS + JCAL_CENTER_JUDGE_SLICES - 1u)
+/// Turns of the cycle after that: matrix and factor, the step from it and moving the estimate, the other slices of the judgement.
+#define TURN_SOLVE (JCAL_CENTER_SLICE_FACTOR + 1u)
+#define TURN_MOVE (TURN_SOLVE + 1u)
+#define TURNS (JCAL_CENTER_JUDGE_SLICES + 2u)
 
 typedef char jcal_center_fits_its_budget[(sizeof(jcal_center_t) <= 5120u) ? 1 : -1];
 
@@ -115,11 +116,11 @@ const char *jcal_center_config_check(const jcal_center_config_t *config)
 /// Forgets what was learnt of the joint.
 static void begin_anew(jcal_center_t *self, jcal_calibration_t status)
 {
-    (void)memset(&self->work.as, 0, sizeof self->work.as);
-    (void)memset(&self->start, 0, sizeof self->start);
-    (void)memset(&self->work.sums, 0, sizeof self->work.sums);
-    (void)memset(&self->watch, 0, sizeof self->watch);
-    (void)memset(&self->heading, 0, sizeof self->heading);
+    jcal_clear(&self->work.as, sizeof self->work.as);
+    jcal_clear(&self->start, sizeof self->start);
+    jcal_clear(&self->work.sums, sizeof self->work.sums);
+    jcal_clear(&self->watch, sizeof self->watch);
+    jcal_clear(&self->heading, sizeof self->heading);
     self->heading_s = 0.0f;
     self->moving_s = 0.0f;
     self->turn = 0u;
@@ -137,7 +138,7 @@ jcal_status_t jcal_center_init(jcal_center_t *self, const jcal_center_config_t *
         return JCAL_ERR_CONFIG;
     }
     const jcal_center_config_t cfg = *config; /* the caller may hand over self->cfg */
-    (void)memset(self, 0, sizeof *self);
+    jcal_clear(self, sizeof *self);
     self->cfg = cfg;
     jcal_center_input_begin(&self->input);
     begin_anew(self, JCAL_COLLECTING);
@@ -228,7 +229,7 @@ static bool is_known(const jcal_center_t *self, float *matrix, float cost)
         return true;
     }
     float inverse[JCAL_SYM_SIZE(JCAL_CENTER_PLACE_UNKNOWNS)];
-    if (jcal_chol_factor_in_place(matrix, JCAL_CENTER_PLACE_UNKNOWNS, NULL) != JCAL_OK) {
+    if (jcal_chol_factor(matrix, JCAL_CENTER_PLACE_UNKNOWNS, matrix, NULL) != JCAL_OK) {
         return false;
     }
     jcal_chol_inverse(matrix, JCAL_CENTER_PLACE_UNKNOWNS, inverse);
@@ -291,11 +292,10 @@ static void begin_sums(jcal_center_t *self, const jcal_center_place_t *place, jc
     }
 }
 
-/// One Gauss-Newton step of the estimate, from the factor just made.
-static void step_point(jcal_center_t *self)
+/// Moves the estimate by the step that was found.
+static void move_point(jcal_center_t *self)
 {
-    float d[JCAL_CENTER_UNKNOWNS];
-    jcal_center_solve(&self->cfg, &self->work, d);
+    const float *const d = self->work.as.inverse.step;
     jcal_center_place_t to = self->work.sums.point.place;
     to.r1 = jcal_vec3_add(to.r1, jcal_vec3(d[0], d[1], d[2]));
     to.r2 = jcal_vec3_add(to.r2, jcal_vec3(d[3], d[4], d[5]));
@@ -309,7 +309,7 @@ static void step_point(jcal_center_t *self)
         begin_sums(self, &to, before.heading);
         self->work.sums.point.b1 = before.b1;
         self->work.sums.point.b2 = before.b2;
-        self->turn = TURN_FACTOR;
+        self->turn = 0u;
     } else {
         /* too little data to follow */
     }
@@ -322,9 +322,9 @@ static void work_at_start(jcal_center_t *self)
         step_start(self);
     } else if (self->has_start && ((self->cfg.method != JCAL_CENTER_LS) || (self->heading_s > HEADING_S))) {
         begin_sums(self, &self->start, self->heading);
-        (void)memset(&self->work.as.inverse, 0, sizeof self->work.as.inverse);
+        jcal_clear(&self->work.as.inverse, sizeof self->work.as.inverse);
         self->has_point = true;
-        self->turn = TURN_FACTOR;
+        self->turn = 0u;
     }
 }
 
@@ -332,18 +332,20 @@ static void work_at_start(jcal_center_t *self)
 static void work_at_point(jcal_center_t *self)
 {
     const unsigned turn = self->turn;
+    if (jcal_center_sums_close(&self->work.sums) || ((turn == 0u) && !(self->work.sums.blocks >= BLOCKS_MIN))) {
+        return;
+    }
     self->turn = (uint8_t)((turn + 1u) % TURNS);
-    if (turn == TURN_FACTOR) {
-        if (!(self->work.sums.blocks >= 1.0f) || !jcal_center_judge(&self->cfg, &self->work, 0u)) {
-            self->turn = TURN_FACTOR;
-        }
-    } else if (turn == TURN_STEP) {
-        step_point(self);
+    if (turn == TURN_SOLVE) {
+        jcal_center_solve(&self->cfg, &self->work);
+    } else if (turn == TURN_MOVE) {
+        move_point(self);
+    } else if (!jcal_center_judge(&self->cfg, &self->work, (turn < TURN_SOLVE) ? turn : (turn - 2u))) {
+        self->turn = 0u;
+    } else if (self->work.verdict.status == (uint8_t)JCAL_READY) {
+        jcal_watch_start(&self->watch);
     } else {
-        (void)jcal_center_judge(&self->cfg, &self->work, turn - TURN_COLUMNS + 1u);
-        if (self->work.verdict.status == (uint8_t)JCAL_READY) {
-            jcal_watch_start(&self->watch);
-        }
+        /* not ready yet */
     }
 }
 

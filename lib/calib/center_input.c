@@ -3,15 +3,15 @@
 /// Gate, inbox and derivatives in a row. See center_input.h.
 #include "calib/center_input.h"
 
+#include "math/clear.h"
 #include "math/scalar.h"
 #include "sample/inbox.h"
 
 #include <stddef.h>
-#include <string.h>
 
 void jcal_center_input_begin(jcal_center_input_t *self)
 {
-    (void)memset(self, 0, sizeof *self);
+    jcal_clear(self, sizeof *self);
     jcal_gate_init(&self->gate);
     jcal_kinematics_begin(&self->kinematics);
 }

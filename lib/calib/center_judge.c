@@ -6,6 +6,7 @@
 #include "calib/center_sums.h"
 #include "jointcal/vec3.h"
 #include "math/chol.h"
+#include "math/clear.h"
 #include "math/eig.h"
 #include "math/scalar.h"
 #include "math/sym.h"
@@ -22,6 +23,9 @@
 
 /// The share of what remains unexplained and lasts that may have shifted the estimate.
 #define HIDDEN_SHARE 0.65f
+/// No less than this share of it is taken to last when it comes to bounds: soft tissue that follows quick motion lasts no longer than
+/// noise does, and shifts the estimate all the same.
+#define LASTING_MIN 0.15f
 /// With more smoothing than this, s, samples that share no reading are so far apart that what lasts between them says little: all of
 /// what remains may last then, and in proportion, as smoothing takes more of what remains than of the shift.
 #define HIDDEN_S 0.125f
@@ -49,6 +53,14 @@
 /// A bound may grow by this before ready is lost.
 #define HYSTERESIS 1.2f
 
+/// Slices after the first two: pairs of columns, rows of both covariances, doubts, both bounds, the verdict.
+#define SLICE_COLUMNS (JCAL_CENTER_SLICE_FACTOR + 1u)
+#define SLICE_COVARIANCES (SLICE_COLUMNS + 3u)
+#define SLICE_DOUBTS (SLICE_COVARIANCES + 6u)
+#define SLICE_BOUNDS (SLICE_DOUBTS + 1u)
+#define SLICE_VERDICT (SLICE_BOUNDS + 2u)
+typedef char jcal_center_counts_its_slices[(JCAL_CENTER_JUDGE_SLICES == (SLICE_VERDICT + 1u)) ? 1 : -1];
+
 /// Mean squared rates below this are no motion to speak of, (rad/s)^2.
 #define TURN_MIN 0.1f
 
@@ -58,22 +70,30 @@ static float excess_of(const jcal_center_sums_t *sums)
     return jcal_max(sums->cost / jcal_max(sums->noise, FLT_MIN), EXCESS_MIN);
 }
 
-static bool factor(const jcal_center_config_t *cfg, jcal_center_work_t *self)
+/// The matrix whose inverse is wanted.
+static void scale(const jcal_center_config_t *cfg, jcal_center_work_t *self)
 {
     jcal_center_inverse_t *const inverse = &self->as.inverse;
     float prior[N];
     jcal_center_prior(&self->sums, cfg, prior);
-    (void)memcpy(inverse->factor, self->sums.matrix, sizeof inverse->factor);
+    (void)memcpy(inverse->of.next.matrix, self->sums.matrix, sizeof inverse->of.next.matrix);
     for (size_t i = 0u; i < N; ++i) {
-        inverse->factor[jcal_sym_at(i, i)] += prior[i];
+        inverse->of.next.matrix[jcal_sym_at(i, i)] += prior[i];
     }
-    return jcal_chol_factor_damped(inverse->factor, N, 0.0f, inverse->scale) == JCAL_OK;
+    jcal_chol_scale(inverse->of.next.matrix, N, inverse->of.next.scale);
+}
+
+static bool factor(jcal_center_inverse_t *inverse)
+{
+    (void)memcpy(inverse->scale, inverse->of.next.scale, sizeof inverse->scale);
+    inverse->is_factored = jcal_chol_factor(inverse->of.next.matrix, N, inverse->factor, NULL) == JCAL_OK;
+    return inverse->is_factored;
 }
 
 static void column(jcal_center_inverse_t *inverse, size_t which)
 {
-    float *const x = inverse->columns[which];
-    (void)memset(x, 0, sizeof inverse->columns[which]);
+    float *const x = inverse->of.columns[which];
+    jcal_clear(x, sizeof inverse->of.columns[which]);
     x[which] = 1.0f;
     jcal_chol_solve_scaled(inverse->factor, N, inverse->scale, x);
 }
@@ -89,13 +109,13 @@ static void covariance(const jcal_center_config_t *cfg, jcal_center_work_t *self
     const float few = jcal_max(sums->time_s / counted, 1.0f);
     const size_t sensor = row / 3u;
     const size_t i = row % 3u;
-    const float *const x = inverse->columns[row];
+    const float *const x = inverse->of.columns[row];
     float prior[N];
     float spread[N]; /* S x */
     jcal_center_prior(&self->sums, cfg, prior);
     jcal_sym_times(sums->scatter, N, x, spread);
     for (size_t j = 0u; j <= i; ++j) {
-        const float *const y = inverse->columns[(3u * sensor) + j];
+        const float *const y = inverse->of.columns[(3u * sensor) + j];
         float from_scatter = 0.0f;
         float from_prior = 0.0f;
         for (size_t k = 0u; k < N; ++k) {
@@ -111,11 +131,17 @@ static void covariance(const jcal_center_config_t *cfg, jcal_center_work_t *self
 /// Takes the part along a unit vector out of a packed 3 x 3 covariance: C <- Q C Q, Q = I - n n'. A zero vector leaves it.
 static void across(float *c, jcal_vec3_t n)
 {
-    const float q[9] = {1.0f - (n.x * n.x), -n.x * n.y, -n.x * n.z, -n.x * n.y,        1.0f - (n.y * n.y),
-                        -n.y * n.z,         -n.x * n.z, -n.y * n.z, 1.0f - (n.z * n.z)};
-    float out[6];
-    jcal_sym_congruence(c, 3u, q, 3u, out);
-    (void)memcpy(c, out, sizeof out);
+    const float v[3] = {n.x, n.y, n.z};
+    float on[3]; /* C n */
+    jcal_sym_times(c, 3u, v, on);
+    const float along = (v[0] * on[0]) + (v[1] * on[1]) + (v[2] * on[2]);
+    size_t k = 0u;
+    for (size_t i = 0u; i < 3u; ++i) {
+        for (size_t j = 0u; j <= i; ++j) {
+            c[k] += (along * v[i] * v[j]) - ((on[i] * v[j]) + (v[i] * on[j]));
+            ++k;
+        }
+    }
 }
 
 /// 95 % radius of a Gaussian with covariance c (3 x 3, packed).
@@ -171,7 +197,7 @@ static void find_fake(jcal_center_work_t *self)
         for (size_t i = 0u; i < 6u; ++i) {
             on[i] = 0.0f;
             for (size_t k = 0u; k < 6u; ++k) {
-                on[i] += d[i / 3u] * inverse->columns[i][k] * d[k / 3u] * z[k];
+                on[i] += d[i / 3u] * inverse->of.columns[i][k] * d[k / 3u] * z[k];
             }
             square += on[i] * on[i];
         }
@@ -200,7 +226,7 @@ static void deflate(const jcal_center_work_t *self, size_t sensor, float *c)
     const float own[3] = {y.x, y.y, y.z};
     float by_matrix = 0.0f;
     for (size_t i = 0u; i < 3u; ++i) {
-        by_matrix += self->as.inverse.columns[(3u * sensor) + i][(3u * sensor) + i];
+        by_matrix += self->as.inverse.of.columns[(3u * sensor) + i][(3u * sensor) + i];
     }
     const float left = 1.0f - share;
     const float more = share * ((1.0f / (left * left)) - 1.0f) * ((c[0] + c[2] + c[5]) / jcal_max(by_matrix, FLT_MIN));
@@ -284,9 +310,10 @@ static void find_hidden(const jcal_center_config_t *cfg, jcal_center_work_t *sel
     const float lasts = jcal_min(jcal_max(sums->lagged, 0.0f) / jcal_max(sums->raw, FLT_MIN), 1.0f);
     const float lasting = (more > 1.0f) ? 1.0f : lasts;
     const float length = sqrtf(jcal_max(jcal_vec3_dot(place->r1, place->r1), jcal_vec3_dot(place->r2, place->r2)));
+    const float all_m = HIDDEN_SHARE * more * sqrtf(share) * length;
     self->verdict.misfit = sqrtf(share);
-    self->as.inverse.lasting_m = HIDDEN_SHARE * more * sqrtf(share * lasting) * length;
-    self->as.inverse.hidden_m = self->as.inverse.lasting_m + (share * length);
+    self->as.inverse.lasting_m = all_m * sqrtf(lasting);
+    self->as.inverse.hidden_m = (all_m * sqrtf(jcal_max(lasting, LASTING_MIN))) + (share * length);
 }
 
 static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
@@ -322,18 +349,20 @@ static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
 
 bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self, unsigned slice)
 {
-    if (slice == 0u) {
-        return factor(cfg, self);
-    }
-    if (slice <= 6u) {
-        column(&self->as.inverse, slice - 1u);
-    } else if (slice <= 12u) {
-        covariance(cfg, self, slice - 7u);
-    } else if (slice == 13u) {
+    if (slice == JCAL_CENTER_SLICE_SCALE) {
+        scale(cfg, self);
+    } else if (slice == JCAL_CENTER_SLICE_FACTOR) {
+        return factor(&self->as.inverse);
+    } else if (slice < SLICE_COVARIANCES) {
+        column(&self->as.inverse, 2u * (slice - SLICE_COLUMNS));
+        column(&self->as.inverse, (2u * (slice - SLICE_COLUMNS)) + 1u);
+    } else if (slice < SLICE_DOUBTS) {
+        covariance(cfg, self, slice - SLICE_COVARIANCES);
+    } else if (slice == SLICE_DOUBTS) {
         find_hidden(cfg, self);
         find_fake(self);
-    } else if (slice <= 15u) {
-        self->as.inverse.bounds[slice - 14u] = bounds_of(cfg, self, slice - 14u);
+    } else if (slice < SLICE_VERDICT) {
+        self->as.inverse.bounds[slice - SLICE_BOUNDS] = bounds_of(cfg, self, slice - SLICE_BOUNDS);
     } else {
         judge(cfg, self);
     }
@@ -342,7 +371,7 @@ bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self
 
 void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_t status)
 {
-    (void)memset(verdict, 0, sizeof *verdict);
+    jcal_clear(verdict, sizeof *verdict);
     verdict->bound1_m = JCAL_BOUND_UNKNOWN_M;
     verdict->bound2_m = JCAL_BOUND_UNKNOWN_M;
     verdict->weakest1_m = JCAL_BOUND_UNKNOWN_M;
@@ -352,8 +381,9 @@ void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_
     verdict->hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
 }
 
-void jcal_center_solve(const jcal_center_config_t *cfg, const jcal_center_work_t *self, float *d)
+void jcal_center_solve(const jcal_center_config_t *cfg, jcal_center_work_t *self)
 {
+    float *const d = self->as.inverse.step;
     float prior[N];
     jcal_center_prior(&self->sums, cfg, prior);
     jcal_center_sums_gradient(&self->sums, prior, d);

@@ -12,10 +12,13 @@
 
 #include "jointcal/center.h"
 
-/// Slices of the work: the factor, six columns of the inverse, six rows of two covariances, doubts, two bounds, the verdict.
-#define JCAL_CENTER_JUDGE_SLICES 17u
+/// Slices of the work: the sums' matrix, its factor, three pairs of columns of the inverse, six rows of two covariances, doubts, two
+/// bounds, the verdict.
+#define JCAL_CENTER_JUDGE_SLICES 15u
+#define JCAL_CENTER_SLICE_SCALE 0u
+#define JCAL_CENTER_SLICE_FACTOR 1u
 
-/// Does slice `slice` of the work on bounds and status. Slice 0 may fail: then the slices after it have nothing to do.
+/// Does slice `slice` of the work on bounds and status. The factor may fail: then the slices after it have nothing to do.
 ///
 /// Cost: at most about 400 multiply-adds.
 bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self, unsigned slice);
@@ -23,8 +26,8 @@ bool jcal_center_judge(const jcal_center_config_t *cfg, jcal_center_work_t *self
 /// 95 % radius of a Gaussian in space with covariance c (3 x 3, packed; lost), the part along a unit vector left out if it is not zero.
 float jcal_center_radius_across(float *c, jcal_vec3_t axis);
 
-/// d (12) <- the Gauss-Newton step of the estimate, from the factor that slice 0 made.
-void jcal_center_solve(const jcal_center_config_t *cfg, const jcal_center_work_t *self, float *d);
+/// Finds the Gauss-Newton step of the estimate, `step` of the inverse, from the factor.
+void jcal_center_solve(const jcal_center_config_t *cfg, jcal_center_work_t *self);
 
 /// Bounds and status before there is an estimate.
 void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_t status);

@@ -4,6 +4,7 @@
 #include "calib/center_sums.h"
 
 #include "jointcal/vec3.h"
+#include "math/clear.h"
 #include "math/plane.h"
 #include "math/scalar.h"
 #include "math/sym.h"
@@ -11,7 +12,6 @@
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 #define N JCAL_CENTER_UNKNOWNS
 
@@ -30,7 +30,7 @@
 
 void jcal_center_sums_begin(jcal_center_sums_t *self, const jcal_center_place_t *place)
 {
-    (void)memset(self, 0, sizeof *self);
+    jcal_clear(self, sizeof *self);
     self->point.place = *place;
     self->point.heading.re = 1.0f;
     self->anchor = *place;
@@ -51,18 +51,6 @@ float jcal_center_reading_s(const jcal_center_config_t *cfg)
 float jcal_center_variance(const jcal_center_config_t *cfg, const jcal_center_residual_t *residual)
 {
     return (cfg->acc_noise_m_s2 * cfg->acc_noise_m_s2) + (cfg->turn_error * cfg->turn_error * residual->turn2);
-}
-
-/// Closes the block.
-static void close_block(jcal_center_sums_t *self)
-{
-    jcal_sym_rank1(self->scatter, N, self->block, 1.0f);
-    for (size_t i = 0u; i < N; ++i) {
-        self->closed[i] += self->block[i];
-    }
-    (void)memset(self->block, 0, sizeof self->block);
-    self->block_s = 0.0f;
-    self->blocks += 1.0f;
 }
 
 void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *cfg,
@@ -103,9 +91,21 @@ void jcal_center_sums_advance(jcal_center_sums_t *self, const jcal_kinematic_t *
     self->turn1 += dt_s * sample->body1.rate2;
     self->turn2 += dt_s * sample->body2.rate2;
     self->block_s += dt_s;
-    if (self->block_s >= JCAL_CENTER_BLOCK_S) {
-        close_block(self);
+}
+
+bool jcal_center_sums_close(jcal_center_sums_t *self)
+{
+    if (self->block_s < JCAL_CENTER_BLOCK_S) {
+        return false;
     }
+    jcal_sym_rank1(self->scatter, N, self->block, 1.0f);
+    for (size_t i = 0u; i < N; ++i) {
+        self->closed[i] += self->block[i];
+        self->block[i] = 0.0f;
+    }
+    self->block_s = 0.0f;
+    self->blocks += 1.0f;
+    return true;
 }
 
 /// The square of a residual over what is usual, no more than `most`.
@@ -201,9 +201,9 @@ static void move_blocks(jcal_center_sums_t *self, const float *on)
 /// Begins the scatter anew: its blocks do not fit the estimate any more.
 static void begin_blocks(jcal_center_sums_t *self)
 {
-    (void)memset(self->scatter, 0, sizeof self->scatter);
-    (void)memset(self->closed, 0, sizeof self->closed);
-    (void)memset(self->block, 0, sizeof self->block);
+    jcal_clear(self->scatter, sizeof self->scatter);
+    jcal_clear(self->closed, sizeof self->closed);
+    jcal_clear(self->block, sizeof self->block);
     self->block_s = 0.0f;
     self->blocks = 0.0f;
 }

@@ -37,6 +37,9 @@ void jcal_center_sums_add(jcal_center_sums_t *self, const jcal_center_config_t *
 /// ... and the time that passed with the sample.
 void jcal_center_sums_advance(jcal_center_sums_t *self, const jcal_kinematic_t *sample);
 
+/// Closes the block if it is long enough, which is to be done before the next sample; true if it was.
+bool jcal_center_sums_close(jcal_center_sums_t *self);
+
 /// Residuals, squared, over what the config calls usual; at least 1: readings that are so much worse count so much less.
 float jcal_center_excess(const jcal_center_sums_t *self);
 

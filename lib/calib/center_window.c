@@ -8,9 +8,9 @@
 #include "calib/center_sums.h"
 #include "calib/watch.h"
 #include "jointcal/vec3.h"
+#include "math/clear.h"
 
 #include <math.h>
-#include <string.h>
 
 /// Samples before the first step, about 1 s.
 #define FIRST_STEP 50u
@@ -55,8 +55,8 @@ size_t jcal_center_window_storage_bytes(const jcal_center_window_config_t *confi
 /// Forgets what was learnt of the joint.
 static void begin_anew(jcal_center_window_t *self, jcal_calibration_t status)
 {
-    (void)memset(&self->work, 0, sizeof self->work);
-    (void)memset(&self->watch, 0, sizeof self->watch);
+    jcal_clear(&self->work, sizeof self->work);
+    jcal_clear(&self->watch, sizeof self->watch);
     self->next = 0u;
     self->count = 0u;
     self->unjudged = 0u;
@@ -84,7 +84,7 @@ jcal_status_t jcal_center_window_init(jcal_center_window_t *self, const jcal_cen
         return JCAL_ERR_STORAGE;
     }
     const jcal_center_window_config_t cfg = *config; /* the caller may hand over self->cfg */
-    (void)memset(self, 0, sizeof *self);
+    jcal_clear(self, sizeof *self);
     self->cfg = cfg;
     self->storage = storage;
     forget(self);
@@ -155,6 +155,7 @@ static float sum_up(jcal_center_window_t *self)
     float newest = -1.0f;
     for (uint32_t i = 0u; i < self->count; ++i) {
         newest = jcal_center_sums_take(&self->work.sums, &self->cfg.center, sample_at(self, i), WATCH_MOST);
+        (void)jcal_center_sums_close(&self->work.sums);
     }
     return newest;
 }
@@ -172,7 +173,7 @@ static void move(jcal_center_point_t *point, const float *d, float share)
 
 static void judge(jcal_center_window_t *self)
 {
-    for (unsigned slice = 1u; slice < JCAL_CENTER_JUDGE_SLICES; ++slice) {
+    for (unsigned slice = JCAL_CENTER_SLICE_FACTOR + 1u; slice < JCAL_CENTER_JUDGE_SLICES; ++slice) {
         (void)jcal_center_judge(&self->cfg.center, &self->work, slice);
     }
     if (self->work.verdict.status == (uint8_t)JCAL_READY) {
@@ -191,11 +192,12 @@ static void iterate(jcal_center_window_t *self, float motion_s)
         begin_anew(self, JCAL_MOVED);
         return;
     }
-    if (!jcal_center_judge(&self->cfg.center, &self->work, 0u)) {
+    (void)jcal_center_judge(&self->cfg.center, &self->work, JCAL_CENTER_SLICE_SCALE);
+    if (!jcal_center_judge(&self->cfg.center, &self->work, JCAL_CENTER_SLICE_FACTOR)) {
         return;
     }
-    float d[JCAL_CENTER_UNKNOWNS];
-    jcal_center_solve(&self->cfg.center, &self->work, d);
+    jcal_center_solve(&self->cfg.center, &self->work);
+    const float *const d = self->work.as.inverse.step;
     const float length =
         sqrtf((d[0] * d[0]) + (d[1] * d[1]) + (d[2] * d[2]) + (d[3] * d[3]) + (d[4] * d[4]) + (d[5] * d[5]));
     if (self->unjudged >= JUDGE_EVERY) {

@@ -6,6 +6,7 @@
 #include "calib/center_judge.h"
 #include "calib/chain_tie.h"
 #include "jointcal/vec3.h"
+#include "math/clear.h"
 #include "math/scalar.h"
 #include "math/sym.h"
 
@@ -75,7 +76,7 @@ jcal_status_t jcal_chain_init(jcal_chain_t *self, const jcal_chain_config_t *con
         return JCAL_ERR_CONFIG;
     }
     const jcal_chain_config_t cfg = *config; /* the caller may hand over self->cfg */
-    (void)memset(self, 0, sizeof *self);
+    jcal_clear(self, sizeof *self);
     self->cfg = cfg;
     jcal_center_config_t knee = cfg.center;
     knee.hinge_axis1 = cfg.knee_axis2;
@@ -267,7 +268,7 @@ jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out)
         return JCAL_ERR_ARG;
     }
     jcal_chain_state_t state;
-    (void)memset(out, 0, sizeof *out);
+    jcal_clear(out, sizeof *out);
     const joint_news_t hip = tell_apart(&self->hip, JCAL_CHAIN_HIP_TO_PELVIS, out);
     const joint_news_t knee = tell_apart(&self->knee, JCAL_CHAIN_KNEE_TO_THIGH, out);
     out->uncertainty_segment_m = JCAL_BOUND_UNKNOWN_M;

@@ -6,13 +6,13 @@
 #include "calib/center_judge.h"
 #include "jointcal/vec3.h"
 #include "math/chol.h"
+#include "math/clear.h"
 #include "math/scalar.h"
 #include "math/sym.h"
 
 #include <float.h>
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 #define N JCAL_CHAIN_STATES
 
@@ -45,48 +45,53 @@ static size_t place_of(bool is_hip, size_t i)
 }
 
 /// By how much the standard deviations of one sensor's vector, by the matrix alone, must grow to make the bound that is stated.
-static float growth(const jcal_center_t *joint, size_t sensor, float bound_m)
+static float growth(const jcal_center_t *joint, bool is_hip, size_t sensor, const jcal_chain_state_t *state)
 {
-    const jcal_center_inverse_t *const inverse = &joint->work.as.inverse;
+    const float bound_m = (sensor == 0u) ? joint->work.verdict.bound1_m : joint->work.verdict.bound2_m;
+    const jcal_vec3_t axis = (sensor == 0u) ? joint->cfg.hinge_axis1 : joint->cfg.hinge_axis2;
+    const size_t first = place_of(is_hip, 3u * sensor);
     float c[6];
     for (size_t i = 0u; i < 3u; ++i) {
         for (size_t j = 0u; j <= i; ++j) {
-            c[jcal_sym_at(i, j)] = inverse->columns[(3u * sensor) + i][(3u * sensor) + j];
+            c[jcal_sym_at(i, j)] = state->covariance[jcal_sym_at(first + i, first + j)];
         }
     }
-    const jcal_vec3_t axis = (sensor == 0u) ? joint->cfg.hinge_axis1 : joint->cfg.hinge_axis2;
     const float radius = jcal_center_radius_across(c, axis);
     return jcal_max(bound_m - joint->cfg.mismatch_m, 0.0f) / jcal_max(radius, FLT_MIN);
 }
 
-/// One joint into its part of the state.
-static void collect(const jcal_center_t *joint, bool is_hip, jcal_chain_state_t *state)
+/// One joint's covariance by the matrix alone, and what it knows, into its part of the state.
+static void copy_joint(const jcal_center_t *joint, bool is_hip, jcal_chain_state_t *state)
 {
     const jcal_center_inverse_t *const inverse = &joint->work.as.inverse;
     const jcal_center_point_t *const point = &joint->work.sums.point;
-    const jcal_vec3_t bias = is_hip ? point->b2 : point->b1;
-    const float values[9] = {point->place.r1.x,
-                             point->place.r1.y,
-                             point->place.r1.z,
-                             point->place.r2.x,
-                             point->place.r2.y,
-                             point->place.r2.z,
-                             bias.x,
-                             bias.y,
-                             bias.z};
-    const float grow1 = growth(joint, 0u, joint->work.verdict.bound1_m);
-    const float grow2 = growth(joint, 1u, joint->work.verdict.bound2_m);
-    const float grow[3] = {grow1, grow2, jcal_max(grow1, grow2)};
+    const jcal_vec3_t parts[3] = {point->place.r1, point->place.r2, is_hip ? point->b2 : point->b1};
     size_t which[9];
     unknowns_of(is_hip, which);
     for (size_t i = 0u; i < 9u; ++i) {
+        const jcal_vec3_t part = parts[i / 3u];
+        const float values[3] = {part.x, part.y, part.z};
+        const size_t row = place_of(is_hip, i);
         float column[JCAL_CENTER_UNKNOWNS] = {0.0f};
         column[which[i]] = 1.0f;
         jcal_chol_solve_scaled(inverse->factor, JCAL_CENTER_UNKNOWNS, inverse->scale, column);
-        state->x[place_of(is_hip, i)] = values[i];
+        state->x[row] = values[i % 3u];
         for (size_t j = 0u; j <= i; ++j) {
-            state->covariance[jcal_sym_at(place_of(is_hip, i), place_of(is_hip, j))] =
-                grow[i / 3u] * grow[j / 3u] * column[which[j]];
+            state->covariance[jcal_sym_at(row, place_of(is_hip, j))] = column[which[j]];
+        }
+    }
+}
+
+/// One joint into its part of the state, as uncertain as it states.
+static void collect(const jcal_center_t *joint, bool is_hip, jcal_chain_state_t *state)
+{
+    copy_joint(joint, is_hip, state);
+    const float grow1 = growth(joint, is_hip, 0u, state);
+    const float grow2 = growth(joint, is_hip, 1u, state);
+    const float grow[3] = {grow1, grow2, jcal_max(grow1, grow2)};
+    for (size_t i = 0u; i < 9u; ++i) {
+        for (size_t j = 0u; j <= i; ++j) {
+            state->covariance[jcal_sym_at(place_of(is_hip, i), place_of(is_hip, j))] *= grow[i / 3u] * grow[j / 3u];
         }
     }
 }
@@ -96,10 +101,10 @@ bool jcal_chain_collect(const jcal_chain_t *self, jcal_chain_state_t *state)
     const jcal_center_verdict_t *const hip = &self->hip.work.verdict;
     const jcal_center_verdict_t *const knee = &self->knee.work.verdict;
     const float worst = jcal_max(jcal_max(hip->bound1_m, hip->bound2_m), jcal_max(knee->bound1_m, knee->bound2_m));
-    if (!(worst < BOUND_MAX_M)) {
+    if (!(worst < BOUND_MAX_M) || !self->hip.work.as.inverse.is_factored || !self->knee.work.as.inverse.is_factored) {
         return false;
     }
-    (void)memset(state, 0, sizeof *state);
+    jcal_clear(state, sizeof *state);
     collect(&self->hip, true, state);
     collect(&self->knee, false, state);
     return true;
@@ -131,7 +136,7 @@ bool jcal_chain_observe(jcal_chain_state_t *state, const float *slope, float apa
 static void slope_between(jcal_vec3_t v, float *slope)
 {
     const float parts[3] = {v.x, v.y, v.z};
-    (void)memset(slope, 0, N * sizeof *slope);
+    jcal_clear(slope, N * sizeof *slope);
     for (size_t i = 0u; i < 3u; ++i) {
         slope[JCAL_CHAIN_AT_HIP_THIGH + i] = parts[i];
         slope[JCAL_CHAIN_AT_KNEE_THIGH + i] = -parts[i];
@@ -175,7 +180,7 @@ bool jcal_chain_tie(const jcal_chain_config_t *cfg, jcal_chain_state_t *state)
     bool fits = true;
     if ((cfg->center.method != JCAL_CENTER_LS) && (cfg->center.acc_bias_m_s2 > 0.0f)) {
         for (size_t i = 0u; i < 3u; ++i) {
-            (void)memset(slope, 0, sizeof slope);
+            jcal_clear(slope, sizeof slope);
             slope[JCAL_CHAIN_AT_HIP_BIAS + i] = 1.0f;
             slope[JCAL_CHAIN_AT_KNEE_BIAS + i] = -1.0f;
             const float apart = state->x[JCAL_CHAIN_AT_KNEE_BIAS + i] - state->x[JCAL_CHAIN_AT_HIP_BIAS + i];

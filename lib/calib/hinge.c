@@ -12,6 +12,7 @@
 #include "calib/hinge_stream.h"
 #include "calib/watch.h"
 #include "jointcal/vec3.h"
+#include "math/clear.h"
 #include "math/scalar.h"
 #include "math/solve.h"
 #include "math/sym.h"
@@ -19,7 +20,6 @@
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 #define MICROSECONDS 1e-6f
 #define DEGREE 0.0174532925f
@@ -125,7 +125,7 @@ const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
 static void clear(jcal_hinge_t *self)
 {
     const size_t first = offsetof(jcal_hinge_t, moments);
-    (void)memset((unsigned char *)self + first, 0, sizeof *self - first);
+    jcal_clear((unsigned char *)self + first, sizeof *self - first);
     self->damping = JCAL_GN_DAMPING_START;
     self->verdict.bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
     self->verdict.bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
@@ -137,7 +137,7 @@ static void clear(jcal_hinge_t *self)
 void jcal_hinge_start(jcal_hinge_t *self, const jcal_hinge_config_t *config)
 {
     const jcal_hinge_config_t cfg = *config; /* the caller may hand over self->cfg */
-    (void)memset(self, 0, sizeof *self);
+    jcal_clear(self, sizeof *self);
     self->cfg = cfg;
     jcal_gate_init(&self->gate);
     clear(self);

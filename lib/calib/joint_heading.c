@@ -12,6 +12,7 @@
 
 #include "jointcal/quat.h"
 #include "math/angle.h"
+#include "math/clear.h"
 #include "math/plane.h"
 #include "math/scalar.h"
 
@@ -47,7 +48,7 @@ static jcal_status_t begin(jcal_joint_heading_t *self, jcal_vec3_t axis1, jcal_v
     if ((self == NULL) || !is_axis(axis1) || !is_axis(axis2) || !jcal_within(memory_s, 0.0f, 600.0f)) {
         return JCAL_ERR_ARG;
     }
-    (void)memset(self, 0, sizeof *self);
+    jcal_clear(self, sizeof *self);
     self->axis1 = jcal_vec3_normalise(axis1);
     self->axis2 = jcal_vec3_normalise(axis2);
     self->memory_s = memory_s;

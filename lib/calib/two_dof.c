@@ -11,12 +11,12 @@
 #include "calib/watch.h"
 #include "jointcal/quat.h"
 #include "math/angle.h"
+#include "math/clear.h"
 #include "math/scalar.h"
 #include "sample/rate.h"
 
 #include <float.h>
 #include <stddef.h>
-#include <string.h>
 
 #define MICROSECONDS 1e-6f
 
@@ -83,16 +83,16 @@ const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config)
 
 void jcal_two_dof_begin_anew(jcal_two_dof_t *self, jcal_calibration_t status)
 {
-    (void)memset(&self->moments, 0, sizeof self->moments);
-    (void)memset(&self->prior, 0, sizeof self->prior);
-    (void)memset(&self->best, 0, sizeof self->best);
-    (void)memset(&self->search, 0, sizeof self->search);
+    jcal_clear(&self->moments, sizeof self->moments);
+    jcal_clear(&self->prior, sizeof self->prior);
+    jcal_clear(&self->best, sizeof self->best);
+    jcal_clear(&self->search, sizeof self->search);
     self->age_s = 0.0f;
     self->moving_s = 0.0f;
     self->since_forgot_s = 0.0f;
     self->has_best = false;
     self->recovers = self->recovers || (status == JCAL_MOVED);
-    (void)memset(&self->watch, 0, sizeof self->watch);
+    jcal_clear(&self->watch, sizeof self->watch);
     jcal_two_dof_verdict_begin(&self->verdict, status);
 }
 
@@ -105,7 +105,7 @@ jcal_status_t jcal_two_dof_init(jcal_two_dof_t *self, const jcal_two_dof_config_
         return JCAL_ERR_CONFIG;
     }
     const jcal_two_dof_config_t cfg = *config; /* the caller may hand over self->cfg */
-    (void)memset(self, 0, sizeof *self);
+    jcal_clear(self, sizeof *self);
     self->cfg = cfg;
     self->share = ITEMS;
     self->item = ITEMS;

@@ -6,12 +6,12 @@
 #include "calib/two_dof_residual.h"
 #include "math/angle.h"
 #include "math/chol.h"
+#include "math/clear.h"
 #include "math/scalar.h"
 #include "math/sym.h"
 
 #include <math.h>
 #include <stddef.h>
-#include <string.h>
 
 /// Bound of something of which nothing is known: a right angle; the heading may be turned by half a turn.
 #define UNKNOWN_RAD JCAL_HALF_PI
@@ -73,7 +73,7 @@ bool jcal_two_dof_covariance(float *matrix, unsigned n, float *inverse)
 {
     float scale[JCAL_CHOL_MAX];
     jcal_chol_scale(matrix, n, scale);
-    if (jcal_chol_factor_in_place(matrix, n, NULL) != JCAL_OK) {
+    if (jcal_chol_factor(matrix, n, matrix, NULL) != JCAL_OK) {
         return false;
     }
     jcal_chol_inverse(matrix, n, inverse);
@@ -167,7 +167,7 @@ static jcal_calibration_t missing(jcal_two_dof_verdict_t *verdict, const jcal_tw
 
 void jcal_two_dof_verdict_begin(jcal_two_dof_verdict_t *verdict, jcal_calibration_t status)
 {
-    (void)memset(verdict, 0, sizeof *verdict);
+    jcal_clear(verdict, sizeof *verdict);
     verdict->status = (uint8_t)status;
     verdict->bound1_rad = UNKNOWN_RAD;
     verdict->bound2_rad = UNKNOWN_RAD;

@@ -6,9 +6,8 @@
 #include "calib/two_dof_verdict.h"
 #include "calib/two_dof_window_solve.h"
 #include "jointcal/quat.h"
+#include "math/clear.h"
 #include "sample/rate.h"
-
-#include <string.h>
 
 #define MICROSECONDS 1e-6f
 
@@ -59,7 +58,7 @@ static void forget(jcal_two_dof_window_t *self)
 {
     const jcal_two_dof_window_config_t cfg = self->cfg;
     void *const storage = self->storage;
-    (void)memset(self, 0, sizeof *self);
+    jcal_clear(self, sizeof *self);
     self->cfg = cfg;
     self->storage = storage;
     jcal_two_dof_verdict_begin(&self->verdict, JCAL_COLLECTING);

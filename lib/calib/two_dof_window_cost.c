@@ -6,11 +6,11 @@
 #include "calib/two_dof_residual.h"
 #include "calib/two_dof_starts.h"
 #include "calib/watch.h"
+#include "math/clear.h"
 #include "math/scalar.h"
 
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
 /// |n|^2 is never taken for less: parallel axes have no common normal.
 #define NORMAL2_MIN 1e-6f
@@ -87,7 +87,7 @@ void jcal_two_dof_window_sum(const jcal_two_dof_rows_t *rows, const jcal_two_dof
     const unsigned n = jcal_two_dof_window_unknowns(constraint);
     const bool turn = constraint == JCAL_CONSTRAINT_ROTATION;
     const float per_lasts_s = 1.0f / (turn ? JCAL_TWO_DOF_RATE_TIME_S : JCAL_TWO_DOF_ANGLE_TIME_S);
-    (void)memset(out, 0, sizeof *out);
+    jcal_clear(out, sizeof *out);
     for (size_t k = 0u; k < rows->count; ++k) {
         jcal_two_dof_residual_t r;
         float time_s;

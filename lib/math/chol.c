@@ -18,43 +18,14 @@ static float largest_diagonal(const float *m, size_t n)
     return largest;
 }
 
-/* m(i, j) less the scalar product of the first j elements of rows i and j of the factor, for j <= i. */
-static float reduced(const float *m, size_t i, size_t j)
+/* m(i, j) less the scalar product of the first j elements of rows i and j of the factor. */
+static float reduced(float m, const float *li, const float *lj, size_t j)
 {
-    const float *const li = &m[jcal_sym_at(i, 0u)];
-    const float *const lj = &m[jcal_sym_at(j, 0u)];
-    float sum = m[jcal_sym_at(i, j)];
+    float sum = m;
     for (size_t k = 0u; k < j; ++k) {
         sum -= li[k] * lj[k];
     }
     return sum;
-}
-
-jcal_status_t jcal_chol_factor_in_place(float *m, size_t n, float *pivot_ratio)
-{
-    if ((m == NULL) || (n < 1u) || (n > JCAL_CHOL_MAX)) {
-        return JCAL_ERR_ARG;
-    }
-    const float tolerance = JCAL_CHOL_PIVOT_FACTOR * (float)n * FLT_EPSILON * largest_diagonal(m, n);
-    float smallest_ratio = 1.0f;
-    for (size_t i = 0u; i < n; ++i) {
-        for (size_t j = 0u; j < i; ++j) {
-            m[jcal_sym_at(i, j)] = reduced(m, i, j) / m[jcal_sym_at(j, j)];
-        }
-        const float pivot = reduced(m, i, i);
-        /* Written this way round so that NaN fails. With an infinite element the tolerance or the pivot is one of
-           infinity, -infinity and NaN, and fails as well. */
-        if (!(pivot > tolerance)) {
-            return JCAL_ERR_SINGULAR;
-        }
-        const float ratio = pivot / m[jcal_sym_at(i, i)];
-        smallest_ratio = (ratio < smallest_ratio) ? ratio : smallest_ratio;
-        m[jcal_sym_at(i, i)] = sqrtf(pivot);
-    }
-    if (pivot_ratio != NULL) {
-        *pivot_ratio = smallest_ratio;
-    }
-    return JCAL_OK;
 }
 
 jcal_status_t jcal_chol_factor(const float *m, size_t n, float *l, float *pivot_ratio)
@@ -62,46 +33,72 @@ jcal_status_t jcal_chol_factor(const float *m, size_t n, float *l, float *pivot_
     if ((m == NULL) || (l == NULL) || (n < 1u) || (n > JCAL_CHOL_MAX)) {
         return JCAL_ERR_ARG;
     }
-    float work[JCAL_SYM_SIZE(JCAL_CHOL_MAX)]; /* n x n, packed */
-    for (size_t k = 0u; k < JCAL_SYM_SIZE(n); ++k) {
-        work[k] = m[k];
+    const float tolerance = JCAL_CHOL_PIVOT_FACTOR * (float)n * FLT_EPSILON * largest_diagonal(m, n);
+    float smallest_ratio = 1.0f;
+    const float *mi = m; /* row i of m ... */
+    float *li = l;       /* ... and of l */
+    for (size_t i = 0u; i < n; ++i) {
+        const float *lj = l;
+        for (size_t j = 0u; j < i; ++j) {
+            li[j] = reduced(mi[j], li, lj, j) / lj[j];
+            lj = &lj[j + 1u];
+        }
+        const float diagonal = mi[i];
+        const float pivot = reduced(diagonal, li, li, i);
+        /* Written this way round so that NaN fails. With an infinite element the tolerance or the pivot is one of
+           infinity, -infinity and NaN, and fails as well. */
+        if (!(pivot > tolerance)) {
+            return JCAL_ERR_SINGULAR;
+        }
+        const float ratio = pivot / diagonal;
+        smallest_ratio = (ratio < smallest_ratio) ? ratio : smallest_ratio;
+        li[i] = sqrtf(pivot);
+        mi = &mi[i + 1u];
+        li = &li[i + 1u];
     }
-    const jcal_status_t status = jcal_chol_factor_in_place(work, n, pivot_ratio);
-    for (size_t k = 0u; (k < JCAL_SYM_SIZE(n)) && (status == JCAL_OK); ++k) {
-        l[k] = work[k];
+    if (pivot_ratio != NULL) {
+        *pivot_ratio = smallest_ratio;
     }
-    return status;
+    return JCAL_OK;
 }
 
 void jcal_chol_scale(float *m, size_t n, float *scale)
 {
+    float *row = m;
     for (size_t i = 0u; i < n; ++i) {
-        const float diagonal = m[jcal_sym_at(i, i)];
-        scale[i] = (diagonal > 0.0f) ? (1.0f / sqrtf(diagonal)) : 1.0f;
+        const float diagonal = row[i];
+        const float own = (diagonal > 0.0f) ? (1.0f / sqrtf(diagonal)) : 1.0f;
+        scale[i] = own;
         for (size_t k = 0u; k <= i; ++k) {
-            m[jcal_sym_at(i, k)] *= scale[i] * scale[k];
+            row[k] *= own * scale[k];
         }
+        row = &row[i + 1u];
     }
 }
 
 void jcal_chol_solve(const float *l, size_t n, const float *b, float *x)
 {
     /* L y = b, top down; y is kept in x. */
+    const float *row = l;
     for (size_t i = 0u; i < n; ++i) {
         float sum = b[i];
         for (size_t k = 0u; k < i; ++k) {
-            sum -= l[jcal_sym_at(i, k)] * x[k];
+            sum -= row[k] * x[k];
         }
-        x[i] = sum / l[jcal_sym_at(i, i)];
+        x[i] = sum / row[i];
+        row = &row[i + 1u];
     }
-    /* L^T x = y, bottom up. */
+    /* L^T x = y, bottom up; from one row to the next a column's element is further by the row's length. */
     for (size_t step = 0u; step < n; ++step) {
         const size_t i = n - 1u - step;
+        const float *const diagonal = &l[jcal_sym_at(i, i)];
+        const float *below = diagonal;
         float sum = x[i];
         for (size_t k = i + 1u; k < n; ++k) {
-            sum -= l[jcal_sym_at(k, i)] * x[k];
+            below = &below[k];
+            sum -= *below * x[k];
         }
-        x[i] = sum / l[jcal_sym_at(i, i)];
+        x[i] = sum / *diagonal;
     }
 }
 
@@ -111,7 +108,7 @@ jcal_status_t jcal_chol_factor_damped(float *m, size_t n, float damping, float *
     for (size_t i = 0u; i < n; ++i) {
         m[jcal_sym_at(i, i)] += damping;
     }
-    return jcal_chol_factor_in_place(m, n, NULL);
+    return jcal_chol_factor(m, n, m, NULL);
 }
 
 void jcal_chol_solve_scaled(const float *l, size_t n, const float *scale, float *x)

@@ -31,15 +31,9 @@ extern "C" {
 /// Inputs:   m; n in [1, JCAL_CHOL_MAX].
 /// Outputs:  l, which may be m itself; pivot_ratio (may be null) the smallest of pivot / original diagonal element,
 ///           in (0, 1]: 1 for a diagonal matrix, near 0 when some unknown follows from the ones before it.
-///           Both untouched on error.
-/// Errors:   JCAL_ERR_ARG (null, n); JCAL_ERR_SINGULAR (a pivot is not above the tolerance; NaN; infinity).
-/// Cost:     n^3 / 6 multiply-adds, n square roots, n^2 / 2 divisions; stack about 400 B.
+/// Errors:   JCAL_ERR_ARG (null, n); JCAL_ERR_SINGULAR (a pivot is not above the tolerance; NaN; infinity): l is lost.
+/// Cost:     n^3 / 6 multiply-adds, n square roots, n^2 / 2 divisions; stack about 100 B.
 JCAL_MUST_CHECK jcal_status_t jcal_chol_factor(const float *m, size_t n, float *l, float *pivot_ratio);
-
-/// As jcal_chol_factor with l = m, without its copy of the matrix: on JCAL_ERR_SINGULAR m is lost.
-///
-/// Cost:     as jcal_chol_factor; stack about 100 B.
-JCAL_MUST_CHECK jcal_status_t jcal_chol_factor_in_place(float *m, size_t n, float *pivot_ratio);
 
 /// Brings m (n x n) to a unit diagonal: m_ik <- s_i s_k m_ik with s_i = 1 / sqrt(m_ii); an element of the diagonal that is
 /// not positive keeps s_i = 1. Unknowns of very different units or information can then be factorised together.

@@ -45,34 +45,46 @@ static rotation_t annihilating_rotation(float app, float aqq, float apq)
     return r;
 }
 
+/* (x, y) <- R^T (x, y). */
+static void rotate(rotation_t r, float *x, float *y)
+{
+    const float before = *x;
+    *x = (r.c * before) - (r.s * *y);
+    *y = (r.s * before) + (r.c * *y);
+}
+
 /* a <- R^T a R and v <- R^T v for the rotation that makes a(p, q) zero, p < q. */
 static void annihilate(jacobi_t *self, size_t p, size_t q)
 {
     const size_t n = self->n;
-    const float apq = self->a[jcal_sym_at(p, q)];
-    const float app = self->a[jcal_sym_at(p, p)];
-    const float aqq = self->a[jcal_sym_at(q, q)];
+    float *const ap = &self->a[jcal_sym_at(p, 0u)]; /* rows */
+    float *const aq = &self->a[jcal_sym_at(q, 0u)];
+    const float apq = aq[p];
+    const float app = ap[p];
+    const float aqq = aq[q];
+    aq[p] = 0.0f;
     if ((apq * apq) <= (NEGLIGIBLE * fabsf(app * aqq))) { /* also where everything is zero */
-        self->a[jcal_sym_at(p, q)] = 0.0f;
         return;
     }
     const rotation_t r = annihilating_rotation(app, aqq, apq);
+    for (size_t k = 0u; k < p; ++k) {
+        rotate(r, &ap[k], &aq[k]);
+    }
+    for (size_t k = p + 1u; k < q; ++k) {
+        rotate(r, &self->a[jcal_sym_at(k, p)], &aq[k]);
+    }
+    for (size_t k = q + 1u; k < n; ++k) {
+        float *const ak = &self->a[jcal_sym_at(k, 0u)];
+        rotate(r, &ak[p], &ak[q]);
+    }
+    float *const vp = &self->v[p * n];
+    float *const vq = &self->v[q * n];
     for (size_t k = 0u; k < n; ++k) {
-        if ((k != p) && (k != q)) {
-            const float akp = self->a[jcal_sym_at(k, p)];
-            const float akq = self->a[jcal_sym_at(k, q)];
-            self->a[jcal_sym_at(k, p)] = (r.c * akp) - (r.s * akq);
-            self->a[jcal_sym_at(k, q)] = (r.s * akp) + (r.c * akq);
-        }
-        const float vp = self->v[(p * n) + k];
-        const float vq = self->v[(q * n) + k];
-        self->v[(p * n) + k] = (r.c * vp) - (r.s * vq);
-        self->v[(q * n) + k] = (r.s * vp) + (r.c * vq);
+        rotate(r, &vp[k], &vq[k]);
     }
     const float t = r.s / r.c;
-    self->a[jcal_sym_at(p, p)] = app - (t * apq);
-    self->a[jcal_sym_at(q, q)] = aqq + (t * apq);
-    self->a[jcal_sym_at(p, q)] = 0.0f;
+    ap[p] = app - (t * apq);
+    aq[q] = aqq + (t * apq);
 }
 
 /* Sum of |a(p, q)| above the diagonal. */

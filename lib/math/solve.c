@@ -54,7 +54,7 @@ jcal_status_t jcal_gn_step(jcal_gn_t *gn, const jcal_gn_model_t *model, float *d
     }
     float work[JCAL_SYM_SIZE(JCAL_CHOL_MAX)]; /* n x n, packed */
     damped_matrix(model, gn->damping, work);
-    if (jcal_chol_factor_in_place(work, model->n, NULL) != JCAL_OK) {
+    if (jcal_chol_factor(work, model->n, work, NULL) != JCAL_OK) {
         set_damping(gn, gn->damping * damping_refused);
         return JCAL_ERR_SINGULAR;
     }

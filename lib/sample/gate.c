@@ -84,36 +84,33 @@ static float share_of(float dt_s, float time_s)
     return dt_s / (dt_s + time_s);
 }
 
-/// True if some component stands still at the largest magnitude it ever had while the sensor turns; at rest a coarse reading
-/// repeats itself and is not clipped.
-static bool is_clipped(const jcal_gate_sensor_t *sensor, const float now[6])
-{
-    bool clipped = false;
-    bool turns = false;
-    for (unsigned i = 0u; i < 3u; ++i) {
-        turns = turns || (fabsf(now[i]) > GYR_CLIP_MIN_RAD_S);
-    }
-    for (unsigned i = 0u; i < 6u; ++i) {
-        const float least = (i < 3u) ? GYR_CLIP_MIN_RAD_S : ACC_CLIP_MIN_M_S2;
-        const float magnitude = fabsf(now[i]);
-        const bool stands = (now[i] == sensor->last[i]) && (magnitude >= sensor->extreme[i]);
-        clipped = clipped || (stands && (magnitude > least));
-    }
-    return clipped && turns;
-}
-
-static bool is_repeated(const jcal_gate_sensor_t *sensor, const float now[6])
-{
-    bool same = true;
-    for (unsigned i = 0u; i < 6u; ++i) {
-        same = same && (now[i] == sensor->last[i]);
-    }
-    return same;
-}
-
 static bool exceeds(const float v[3], float limit)
 {
     return (fabsf(v[0]) > limit) || (fabsf(v[1]) > limit) || (fabsf(v[2]) > limit);
+}
+
+/// A sample beside the one before.
+typedef struct {
+    bool repeated;  ///< All components are the same.
+    /// Some component stands still at the largest magnitude it ever had while the sensor turns; at rest a coarse reading repeats itself
+    /// and is not clipped.
+    bool clipped;
+} likeness_t;
+
+static likeness_t compare(const jcal_gate_sensor_t *sensor, const float now[6])
+{
+    likeness_t out = {true, false};
+    for (unsigned i = 0u; i < 6u; ++i) {
+        if (now[i] == sensor->last[i]) {
+            const float least = (i < 3u) ? GYR_CLIP_MIN_RAD_S : ACC_CLIP_MIN_M_S2;
+            const float magnitude = fabsf(now[i]);
+            out.clipped = out.clipped || ((magnitude >= sensor->extreme[i]) && (magnitude > least));
+        } else {
+            out.repeated = false;
+        }
+    }
+    out.clipped = out.clipped && exceeds(&now[0], GYR_CLIP_MIN_RAD_S);
+    return out;
 }
 
 static bool is_beyond(const jcal_gate_config_t *cfg, const float now[6])
@@ -174,9 +171,8 @@ static jcal_reject_t check_sensor(const jcal_gate_config_t *cfg, jcal_gate_senso
 {
     float now[6];
     unpack(imu, now);
-    const bool repeated = is_repeated(sensor, now);
-    const bool clipped = is_clipped(sensor, now);
-    sensor->repeated_s = repeated ? (sensor->repeated_s + dt_s) : 0.0f;
+    const likeness_t like = compare(sensor, now);
+    sensor->repeated_s = like.repeated ? (sensor->repeated_s + dt_s) : 0.0f;
     if (exceeds(&now[3], cfg->acc_max_m_s2)) {
         return JCAL_REJECT_OUT_OF_RANGE; /* no force that a sensor feels: nothing to learn of gravity or of its range */
     }
@@ -185,13 +181,13 @@ static jcal_reject_t check_sensor(const jcal_gate_config_t *cfg, jcal_gate_senso
     if (is_beyond(cfg, now) || acc_looks_wrong(sensor) || gyr_looks_wrong(sensor)) {
         return JCAL_REJECT_OUT_OF_RANGE;
     }
-    if (clipped && !repeated) {
+    if (like.clipped && !like.repeated) {
         return JCAL_REJECT_SATURATED;
     }
     if (sensor->repeated_s > cfg->frozen_s) {
         return JCAL_REJECT_FROZEN;
     }
-    return repeated ? JCAL_REJECT_REPEATED : JCAL_REJECT_NONE;
+    return like.repeated ? JCAL_REJECT_REPEATED : JCAL_REJECT_NONE;
 }
 
 /// The first sample, and the first one after a hole: nothing to compare with.

@@ -3,10 +3,10 @@
 /// Bins, derivatives and smoothing. See kinematics.h.
 #include "sample/kinematics.h"
 
+#include "math/clear.h"
 #include "math/scalar.h"
 
 #include <stddef.h>
-#include <string.h>
 
 #define MICROSECONDS 1e-6f
 
@@ -20,8 +20,6 @@
 /// Place of the bin in the middle, counted from the oldest.
 #define MIDDLE 2u
 
-/// Weights of the blocks, from the oldest.
-static const float WEIGHTS[JCAL_BLOCKS] = {0.125f, 0.375f, 0.375f, 0.125f};
 #define PER_BLOCK_MAX 100.0f
 /// Bins in a block: rounded down unless nearly one more, and kept as long as blocks go on.
 #define ROUND_FROM 0.25f
@@ -40,22 +38,22 @@ static void begin_blocks(jcal_kinematics_t *self)
 {
     self->blocks = 0u;
     self->in_block = 0u;
-    (void)memset(&self->filling, 0, sizeof self->filling);
     self->turn1 = jcal_quat(1.0f, 0.0f, 0.0f, 0.0f);
     self->turn2 = self->turn1;
 }
 
 void jcal_kinematics_begin(jcal_kinematics_t *self)
 {
-    (void)memset(self, 0, sizeof *self);
+    jcal_clear(self, sizeof *self);
     begin_chain(self);
     begin_blocks(self);
 }
 
-static void add_reading(jcal_imu_t *sum, const jcal_imu_t *imu)
+/// sum <- sum + imu, or imu if it is the first.
+static void add_reading(jcal_imu_t *sum, const jcal_imu_t *imu, bool is_first)
 {
-    sum->gyr_rad_s = jcal_vec3_add(sum->gyr_rad_s, imu->gyr_rad_s);
-    sum->acc_m_s2 = jcal_vec3_add(sum->acc_m_s2, imu->acc_m_s2);
+    sum->gyr_rad_s = is_first ? imu->gyr_rad_s : jcal_vec3_add(sum->gyr_rad_s, imu->gyr_rad_s);
+    sum->acc_m_s2 = is_first ? imu->acc_m_s2 : jcal_vec3_add(sum->acc_m_s2, imu->acc_m_s2);
 }
 
 static jcal_imu_t mean_of(const jcal_imu_t *sum, float share)
@@ -64,12 +62,14 @@ static jcal_imu_t mean_of(const jcal_imu_t *sum, float share)
     return mean;
 }
 
-/// sum <- sum + q; q and -q are the same orientation, and that nearer to the sum is taken.
-static void add_attitude(jcal_quat_t *sum, jcal_quat_t q)
+/// sum <- sum + q, or q if it is the first; q and -q are the same orientation, and that nearer to the sum is taken.
+static void add_attitude(jcal_quat_t *sum, jcal_quat_t q, bool is_first)
 {
     const float dot = (sum->w * q.w) + (sum->x * q.x) + (sum->y * q.y) + (sum->z * q.z);
     const float sign = (dot < 0.0f) ? -1.0f : 1.0f;
-    *sum = jcal_quat(sum->w + (sign * q.w), sum->x + (sign * q.x), sum->y + (sign * q.y), sum->z + (sign * q.z));
+    *sum = is_first
+               ? q
+               : jcal_quat(sum->w + (sign * q.w), sum->x + (sign * q.x), sum->y + (sign * q.y), sum->z + (sign * q.z));
 }
 
 /// The bin `place` after the oldest, from a full ring.
@@ -95,8 +95,8 @@ static void fill_columns(jcal_vec3_t w, jcal_vec3_t dw, jcal_vec3_t *k)
 }
 
 /// The body of one sensor in the middle of a full ring, in its frame: by a quotient near (w+1 - w-1) + far (w+2 - w-2).
-static jcal_body_t body_of(const jcal_kinematics_t *self, unsigned sensor, jcal_derivative_t derivative,
-                           float spacing_s)
+static void find_body(const jcal_kinematics_t *self, unsigned sensor, jcal_derivative_t derivative, float spacing_s,
+                      jcal_body_t *body)
 {
     const float near = ((derivative == JCAL_DERIVATIVE_SYMMETRIC) ? 0.5f : (8.0f / 12.0f)) / spacing_s;
     const float far = ((derivative == JCAL_DERIVATIVE_SYMMETRIC) ? 0.0f : (-1.0f / 12.0f)) / spacing_s;
@@ -105,34 +105,38 @@ static jcal_body_t body_of(const jcal_kinematics_t *self, unsigned sensor, jcal_
         jcal_vec3_sub(reading(self, sensor, MIDDLE + 1u)->gyr_rad_s, reading(self, sensor, MIDDLE - 1u)->gyr_rad_s);
     const jcal_vec3_t by_far =
         jcal_vec3_sub(reading(self, sensor, MIDDLE + 2u)->gyr_rad_s, reading(self, sensor, MIDDLE - 2u)->gyr_rad_s);
-    jcal_body_t body;
-    body.a = at->acc_m_s2;
-    body.rate2 = jcal_vec3_dot(at->gyr_rad_s, at->gyr_rad_s);
-    fill_columns(at->gyr_rad_s, jcal_vec3_add(jcal_vec3_scale(by_near, near), jcal_vec3_scale(by_far, far)), body.k);
-    body.turn[0] = jcal_vec3(1.0f, 0.0f, 0.0f);
-    body.turn[1] = jcal_vec3(0.0f, 1.0f, 0.0f);
-    body.turn[2] = jcal_vec3(0.0f, 0.0f, 1.0f);
-    return body;
+    body->a = at->acc_m_s2;
+    body->rate2 = jcal_vec3_dot(at->gyr_rad_s, at->gyr_rad_s);
+    fill_columns(at->gyr_rad_s, jcal_vec3_add(jcal_vec3_scale(by_near, near), jcal_vec3_scale(by_far, far)), body->k);
+    body->turn[0] = jcal_vec3(1.0f, 0.0f, 0.0f);
+    body->turn[1] = jcal_vec3(0.0f, 1.0f, 0.0f);
+    body->turn[2] = jcal_vec3(0.0f, 0.0f, 1.0f);
 }
 
-/// Turns a body to another frame.
+/// Turns a body from its sensor's frame to another.
 static void turn_body(jcal_body_t *body, jcal_quat_t q)
 {
-    body->a = jcal_quat_rotate(q, body->a);
+    const float x2 = 2.0f * q.x;
+    const float y2 = 2.0f * q.y;
+    const float z2 = 2.0f * q.z;
+    jcal_vec3_t *const turn = body->turn;
+    turn[0] = jcal_vec3(1.0f - ((y2 * q.y) + (z2 * q.z)), (x2 * q.y) + (z2 * q.w), (x2 * q.z) - (y2 * q.w));
+    turn[1] = jcal_vec3((x2 * q.y) - (z2 * q.w), 1.0f - ((x2 * q.x) + (z2 * q.z)), (y2 * q.z) + (x2 * q.w));
+    turn[2] = jcal_vec3((x2 * q.z) + (y2 * q.w), (y2 * q.z) - (x2 * q.w), 1.0f - ((x2 * q.x) + (y2 * q.y)));
+    body->a = jcal_body_turn(body, body->a);
     for (size_t i = 0u; i < 3u; ++i) {
-        body->k[i] = jcal_quat_rotate(q, body->k[i]);
-        body->turn[i] = jcal_quat_rotate(q, body->turn[i]);
+        body->k[i] = jcal_body_turn(body, body->k[i]);
     }
 }
 
-/// sum <- sum + share body.
-static void add_body(jcal_body_t *sum, const jcal_body_t *body, float share)
+/// sum <- sum + body.
+static void add_body(jcal_body_t *sum, const jcal_body_t *body)
 {
-    sum->a = jcal_vec3_add(sum->a, jcal_vec3_scale(body->a, share));
-    sum->rate2 += share * body->rate2;
+    sum->a = jcal_vec3_add(sum->a, body->a);
+    sum->rate2 += body->rate2;
     for (size_t i = 0u; i < 3u; ++i) {
-        sum->k[i] = jcal_vec3_add(sum->k[i], jcal_vec3_scale(body->k[i], share));
-        sum->turn[i] = jcal_vec3_add(sum->turn[i], jcal_vec3_scale(body->turn[i], share));
+        sum->k[i] = jcal_vec3_add(sum->k[i], body->k[i]);
+        sum->turn[i] = jcal_vec3_add(sum->turn[i], body->turn[i]);
     }
 }
 
@@ -180,30 +184,58 @@ static void follow_frames(jcal_kinematics_t *self, float block_s)
     self->middle2 = middle->imu2.gyr_rad_s;
 }
 
-/// Puts the bodies of the middle bin, in frames that do not turn, into the block; true if that completed four of them, for `out`.
-static bool smooth(jcal_kinematics_t *self, const jcal_bodies_t *bodies, jcal_kinematic_t *out)
+/// The four blocks of one body, from the oldest.
+typedef struct {
+    const jcal_body_t *of[JCAL_BLOCKS];
+} blocks_t;
+
+/// outer (a + d) + inner (b + c): weights (1, 3, 3, 1)/8 over what a block sums up.
+static jcal_vec3_t mean_vector(const jcal_vec3_t *a, const jcal_vec3_t *b, const jcal_vec3_t *c, const jcal_vec3_t *d,
+                               float outer, float inner)
 {
-    const unsigned per_block = self->per_block;
-    add_body(&self->filling.body1, &bodies->body1, 1.0f / (float)per_block);
-    add_body(&self->filling.body2, &bodies->body2, 1.0f / (float)per_block);
+    return jcal_vec3_add(jcal_vec3_scale(jcal_vec3_add(*a, *d), outer), jcal_vec3_scale(jcal_vec3_add(*b, *c), inner));
+}
+
+static void mean_body(const blocks_t *blocks, float share, jcal_body_t *out)
+{
+    const float outer = 0.125f * share;
+    const float inner = 0.375f * share;
+    const jcal_body_t *const a = blocks->of[0];
+    const jcal_body_t *const b = blocks->of[1];
+    const jcal_body_t *const c = blocks->of[2];
+    const jcal_body_t *const d = blocks->of[3];
+    out->a = mean_vector(&a->a, &b->a, &c->a, &d->a, outer, inner);
+    out->rate2 = (outer * (a->rate2 + d->rate2)) + (inner * (b->rate2 + c->rate2));
+    for (size_t i = 0u; i < 3u; ++i) {
+        out->k[i] = mean_vector(&a->k[i], &b->k[i], &c->k[i], &d->k[i], outer, inner);
+        out->turn[i] = mean_vector(&a->turn[i], &b->turn[i], &c->turn[i], &d->turn[i], outer, inner);
+    }
+}
+
+/// Counts the bodies of the middle bin, in frames that do not turn, that were put into the block; true if that completed four of
+/// them, whose weighted mean is then in `out`.
+static bool smooth(jcal_kinematics_t *self, jcal_kinematic_t *out)
+{
+    const float share = 1.0f / (float)self->per_block;
     self->in_block = (uint8_t)(self->in_block + 1u);
-    if (self->in_block < per_block) {
+    if (self->in_block < self->per_block) {
         return false;
     }
-    self->block[self->next_block] = self->filling;
     self->next_block = (uint8_t)((self->next_block + 1u) % JCAL_BLOCKS);
     self->blocks = (uint8_t)((self->blocks < JCAL_BLOCKS) ? (self->blocks + 1u) : JCAL_BLOCKS);
     self->in_block = 0u;
-    (void)memset(&self->filling, 0, sizeof self->filling);
     if (self->blocks < JCAL_BLOCKS) {
         return false;
     }
-    (void)memset(out, 0, sizeof *out);
+    blocks_t blocks1;
+    blocks_t blocks2;
     for (size_t i = 0u; i < JCAL_BLOCKS; ++i) {
         const jcal_bodies_t *const block = &self->block[(self->next_block + i) % JCAL_BLOCKS];
-        add_body(&out->body1, &block->body1, WEIGHTS[i]);
-        add_body(&out->body2, &block->body2, WEIGHTS[i]);
+        blocks1.of[i] = &block->body1;
+        blocks2.of[i] = &block->body2;
     }
+    mean_body(&blocks1, share, &out->body1);
+    mean_body(&blocks2, share, &out->body2);
     return true;
 }
 
@@ -248,45 +280,42 @@ static bool emit(jcal_kinematics_t *self, const jcal_kinematics_config_t *cfg, c
 {
     const uint32_t span_us = bin(self, JCAL_BINS - 1u)->t_us - bin(self, 0u)->t_us;
     const float spacing_s = (float)span_us * (MICROSECONDS / (float)(JCAL_BINS - 1u));
-    jcal_bodies_t bodies = {body_of(self, 1u, cfg->derivative, spacing_s),
-                            body_of(self, 2u, cfg->derivative, spacing_s)};
     const bool is_smooth = cfg->smoothing_s > 0.0f;
     follow_frames(self, cfg->smoothing_s / (float)JCAL_BLOCKS);
+    jcal_bodies_t *const slot = &self->block[self->next_block];
+    const bool is_first = is_smooth && (self->in_block == 0u); /* of the block: straight to its place */
+    jcal_body_t *const body1 = is_first ? &slot->body1 : &out->body1;
+    jcal_body_t *const body2 = is_first ? &slot->body2 : &out->body2;
+    find_body(self, 1u, cfg->derivative, spacing_s, body1);
+    find_body(self, 2u, cfg->derivative, spacing_s, body2);
     if (attitudes != NULL) {
-        turn_body(&bodies.body1, jcal_quat_normalise(bin(self, MIDDLE)->attitudes.q1));
-        turn_body(&bodies.body2, jcal_quat_normalise(bin(self, MIDDLE)->attitudes.q2));
+        turn_body(body1, jcal_quat_normalise(bin(self, MIDDLE)->attitudes.q1));
+        turn_body(body2, jcal_quat_normalise(bin(self, MIDDLE)->attitudes.q2));
     } else if (is_smooth) {
-        turn_body(&bodies.body1, self->turn1);
-        turn_body(&bodies.body2, self->turn2);
+        turn_body(body1, self->turn1);
+        turn_body(body2, self->turn2);
     } else {
         /* stays in the sensors' frames */
     }
-    if (is_smooth) {
-        if (!smooth(self, &bodies, out)) {
-            return false;
-        }
-        out->dt_s = spacing_s * (float)self->per_block;
-    } else {
-        out->body1 = bodies.body1;
-        out->body2 = bodies.body2;
-        out->dt_s = spacing_s;
+    if (is_smooth && !is_first) {
+        add_body(&slot->body1, body1);
+        add_body(&slot->body2, body2);
     }
-    return true;
+    out->dt_s = is_smooth ? (spacing_s * (float)self->per_block) : spacing_s;
+    return !is_smooth || smooth(self, out);
 }
 
 bool jcal_kinematics_put(jcal_kinematics_t *self, const jcal_kinematics_config_t *cfg, const jcal_pair_t *pair,
                          const jcal_attitudes_t *attitudes, jcal_kinematic_t *out)
 {
     follow_time(self, pair->t_us);
-    if (self->in_bin == 0u) {
-        (void)memset(&self->sum, 0, sizeof self->sum);
-        self->begin_us = pair->t_us;
-    }
-    add_reading(&self->sum.imu1, &pair->imu1);
-    add_reading(&self->sum.imu2, &pair->imu2);
+    const bool is_first = self->in_bin == 0u;
+    self->begin_us = is_first ? pair->t_us : self->begin_us;
+    add_reading(&self->sum.imu1, &pair->imu1, is_first);
+    add_reading(&self->sum.imu2, &pair->imu2, is_first);
     if (attitudes != NULL) {
-        add_attitude(&self->sum.attitudes.q1, attitudes->q1);
-        add_attitude(&self->sum.attitudes.q2, attitudes->q2);
+        add_attitude(&self->sum.attitudes.q1, attitudes->q1, is_first);
+        add_attitude(&self->sum.attitudes.q2, attitudes->q2, is_first);
     }
     self->in_bin = (uint8_t)(self->in_bin + 1u);
     if ((self->interval_s == 0.0f) || (self->in_bin < self->per_bin)) {
