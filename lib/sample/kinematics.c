@@ -189,26 +189,27 @@ typedef struct {
     const jcal_body_t *of[JCAL_BLOCKS];
 } blocks_t;
 
-/// outer (a + d) + inner (b + c): weights (1, 3, 3, 1)/8 over what a block sums up.
+/// weights[0] (a + d) + weights[1] (b + c).
 static jcal_vec3_t mean_vector(const jcal_vec3_t *a, const jcal_vec3_t *b, const jcal_vec3_t *c, const jcal_vec3_t *d,
-                               float outer, float inner)
+                               const float *weights)
 {
-    return jcal_vec3_add(jcal_vec3_scale(jcal_vec3_add(*a, *d), outer), jcal_vec3_scale(jcal_vec3_add(*b, *c), inner));
+    return jcal_vec3_add(jcal_vec3_scale(jcal_vec3_add(*a, *d), weights[0]),
+                         jcal_vec3_scale(jcal_vec3_add(*b, *c), weights[1]));
 }
 
+/// Weights (1, 3, 3, 1)/8, times `share` of what a block sums up.
 static void mean_body(const blocks_t *blocks, float share, jcal_body_t *out)
 {
-    const float outer = 0.125f * share;
-    const float inner = 0.375f * share;
+    const float weights[2] = {0.125f * share, 0.375f * share};
     const jcal_body_t *const a = blocks->of[0];
     const jcal_body_t *const b = blocks->of[1];
     const jcal_body_t *const c = blocks->of[2];
     const jcal_body_t *const d = blocks->of[3];
-    out->a = mean_vector(&a->a, &b->a, &c->a, &d->a, outer, inner);
-    out->rate2 = (outer * (a->rate2 + d->rate2)) + (inner * (b->rate2 + c->rate2));
+    out->a = mean_vector(&a->a, &b->a, &c->a, &d->a, weights);
+    out->rate2 = (weights[0] * (a->rate2 + d->rate2)) + (weights[1] * (b->rate2 + c->rate2));
     for (size_t i = 0u; i < 3u; ++i) {
-        out->k[i] = mean_vector(&a->k[i], &b->k[i], &c->k[i], &d->k[i], outer, inner);
-        out->turn[i] = mean_vector(&a->turn[i], &b->turn[i], &c->turn[i], &d->turn[i], outer, inner);
+        out->k[i] = mean_vector(&a->k[i], &b->k[i], &c->k[i], &d->k[i], weights);
+        out->turn[i] = mean_vector(&a->turn[i], &b->turn[i], &c->turn[i], &d->turn[i], weights);
     }
 }
 

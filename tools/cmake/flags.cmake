@@ -7,7 +7,9 @@ function(jointcal_set_flags target)
     # -ffp-contract=off is not a matter of taste: fused multiply-adds would make results differ between targets.
     target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -ffunction-sections -fdata-sections)
     # lib/math/clear.h is a loop because C libraries built for size have a slow memset; GCC would make a call of memset of it.
-    target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:C,GNU>:-fno-tree-loop-distribute-patterns>)
+    if(CMAKE_CROSSCOMPILING)
+        target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:C,GNU>:-fno-tree-loop-distribute-patterns>)
+    endif()
     target_compile_options(${target} PRIVATE
         -Wall -Wextra -pedantic -Wconversion -Wsign-conversion -Wdouble-promotion -Wshadow -Wundef -Wcast-align
         -Wvla
