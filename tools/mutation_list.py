@@ -518,6 +518,7 @@ MUTATIONS = [
     (CJUDGE, "sqrtf(jcal_max(lasting, LASTING_MIN))", "sqrtf(lasting)", "what lasts as little as noise"),
     (CENTER, "(self->work.sums.blocks >= BLOCKS_MIN)", "(self->work.sums.blocks >= 1.0f)", "steps of too little data"),
     (CENTER, "if (jcal_center_sums_close(&self->work.sums) ||", "if (", "blocks that are never closed"),
+    (TIE, "!self->hip.work.as.inverse.is_factored ||", "", "ties without a factor of the hip's"),
     (CJUDGE, "return inverse->is_factored;", "return true;", "a matrix without a factor"),
     ("lib/sample/gate.c", "out.clipped = out.clipped && exceeds(&now[0], GYR_CLIP_MIN_RAD_S);", "out.clipped = out.clipped && true;",
      "a coarse reading at rest"),

@@ -607,6 +607,46 @@ static void a_start_takes_residuals_for_as_large_as_they_are(void)
     TEST_ASSERT_EQUAL_UINT32(begin, begin_of_sums(1.0f / 32.0f));
 }
 
+static float way_between(const jcal_center_place_t *a, const jcal_center_place_t *b)
+{
+    const jcal_vec3_t d1 = jcal_vec3_sub(a->r1, b->r1);
+    const jcal_vec3_t d2 = jcal_vec3_sub(a->r2, b->r2);
+    return sqrtf(jcal_vec3_dot(d1, d1) + jcal_vec3_dot(d2, d2));
+}
+
+static void the_start_comes_in_steps_of_a_foot_at_most(void)
+{
+    center_motion_t m = center_lively(1);
+    m.r1[0] = 1.5; /* five steps away */
+    float longest = 0.0f;
+    for (uint32_t k = 0; (k < 600u) && !engine.has_start; ++k) {
+        const jcal_pair_t pair = center_sample(&m, k);
+        const jcal_center_place_t before = engine.start;
+        (void)jcal_center_update(&engine, &pair);
+        longest = fmaxf(longest, way_between(&engine.start, &before));
+    }
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.3f, longest);
+}
+
+static void samples_and_work_take_turns(void)
+{
+    center_motion_t m = center_lively(1);
+    m.rate_hz = 100.0;
+    uint32_t works = 0u;
+    for (uint32_t k = 0; k < 2000u; ++k) {
+        const jcal_pair_t pair = center_sample(&m, k);
+        const float time_s = engine.work.sums.time_s;
+        const uint8_t turn = engine.turn;
+        const bool goes_on = engine.has_point;
+        (void)jcal_center_update(&engine, &pair);
+        if (goes_on && (engine.turn != turn)) {
+            TEST_ASSERT_EQUAL_FLOAT(time_s, engine.work.sums.time_s);
+            ++works;
+        }
+    }
+    TEST_ASSERT_TRUE(works > 700u); /* nearly every second update, once there is an estimate */
+}
+
 static void memory_has_a_limit_and_a_shorter_one_with_headings(void)
 {
     const float limits[2] = {100.0f, 60.0f}; /* lengths; orientations with the same config */
@@ -724,6 +764,8 @@ int main(void)
     RUN_TEST(moments_are_weighted_by_the_noise_of_the_difference_of_squares);
     RUN_TEST(moments_of_the_memory_count_half);
     RUN_TEST(a_start_takes_residuals_for_as_large_as_they_are);
+    RUN_TEST(the_start_comes_in_steps_of_a_foot_at_most);
+    RUN_TEST(samples_and_work_take_turns);
     RUN_TEST(memory_has_a_limit_and_a_shorter_one_with_headings);
     RUN_TEST(sums_begin_anew_where_the_data_want_them_but_for_what_is_ready);
     RUN_TEST(rejected_samples_are_counted_and_break_the_chain);

@@ -310,6 +310,15 @@ static void what_is_hidden_is_the_lasting_part_of_what_is_unexplained(void)
     }
 }
 
+static void a_matrix_without_a_factor_ends_the_work(void)
+{
+    work.sums = double_sums(2, 0.5, 1.0);
+    work.sums.matrix[jcal_sym_at(4u, 2u)] = NAN;
+    TEST_ASSERT_TRUE(jcal_center_judge(&config, &work, JCAL_CENTER_SLICE_SCALE));
+    TEST_ASSERT_FALSE(jcal_center_judge(&config, &work, JCAL_CENTER_SLICE_FACTOR));
+    TEST_ASSERT_FALSE(work.as.inverse.is_factored);
+}
+
 static void the_step_goes_to_the_minimum(void)
 {
     work.sums = double_sums(2, 0.5, 1.0);
@@ -455,6 +464,7 @@ int main(void)
     RUN_TEST(a_direction_that_wrong_rows_may_have_told_is_open);
     RUN_TEST(an_open_direction_of_one_vector_leaves_the_other_as_it_is);
     RUN_TEST(what_is_hidden_is_the_lasting_part_of_what_is_unexplained);
+    RUN_TEST(a_matrix_without_a_factor_ends_the_work);
     RUN_TEST(the_step_goes_to_the_minimum);
     RUN_TEST(ready_takes_three_judgements_and_is_lost_beyond_a_fifth_more);
     RUN_TEST(a_few_blocks_tell_no_bounds);

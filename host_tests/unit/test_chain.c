@@ -359,6 +359,12 @@ static void both_joints_become_one_gaussian_as_wide_as_their_bounds(void)
     assert_vector(knee->b1, &state.x[JCAL_CHAIN_AT_KNEE_BIAS]);
     assert_vector(knee->place.r1, &state.x[JCAL_CHAIN_AT_KNEE_THIGH]);
     assert_vector(knee->place.r2, &state.x[JCAL_CHAIN_AT_KNEE_SHANK]);
+    engine.knee.work.as.inverse.is_factored = false;
+    TEST_ASSERT_FALSE(jcal_chain_collect(&engine, &state));
+    engine.knee.work.as.inverse.is_factored = true;
+    engine.hip.work.as.inverse.is_factored = false;
+    TEST_ASSERT_FALSE(jcal_chain_collect(&engine, &state));
+    engine.hip.work.as.inverse.is_factored = true;
     engine.knee.work.verdict.bound2_m = 1.0f; /* none to build on */
     TEST_ASSERT_FALSE(jcal_chain_collect(&engine, &state));
 }
