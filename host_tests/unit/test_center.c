@@ -196,6 +196,11 @@ static void orientations_are_needed_by_their_method_and_must_be_of_length_one(vo
     attitudes.q2.w = NAN;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_center_push_oriented(&engine, &pair, &attitudes));
     TEST_ASSERT_EQUAL_UINT32(2u, result_of(&engine).rejected);
+    attitudes = attitudes_of(&m, 1, 0.0);
+    attitudes.q1.x -= 2.0f;
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_center_push_oriented(&engine, &pair, &attitudes));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_push_oriented(NULL, &pair, &attitudes));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_push_oriented(&engine, NULL, &attitudes));
 }
 
 static void exchanged_sensors_give_the_exchanged_result(void)
@@ -492,8 +497,12 @@ static void every_field_out_of_its_range_is_named(void)
     c = config;
     c.method = (jcal_center_method_t)3;
     TEST_ASSERT_EQUAL_STRING("method", jcal_center_config_check(&c));
+    c.method = (jcal_center_method_t)-1;
+    TEST_ASSERT_EQUAL_STRING("method", jcal_center_config_check(&c));
     c = config;
     c.kinematics.derivative = (jcal_derivative_t)2;
+    TEST_ASSERT_EQUAL_STRING("derivative", jcal_center_config_check(&c));
+    c.kinematics.derivative = (jcal_derivative_t)-1;
     TEST_ASSERT_EQUAL_STRING("derivative", jcal_center_config_check(&c));
     c = config;
     c.hinge_axis1 = jcal_vec3(0.5f, 0.0f, 0.0f);

@@ -416,6 +416,17 @@ static void what_is_missing_is_named(void)
     assert_verdict(JCAL_WEAK_CENTER1, JCAL_REASON_NO_MOTION, JCAL_HINT_MOVE_SEGMENT1);
 }
 
+static void a_covariance_that_is_no_number_has_no_bounds(void)
+{
+    work.sums = double_sums(1, 0.5, 1.0);
+    judge_to_bounds();
+    work.as.inverse.covariance[0][1] = NAN;
+    work.as.inverse.least[0][1] = NAN;
+    TEST_ASSERT_TRUE(jcal_center_judge(&config, &work, SLICE_BOUNDS));
+    TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, work.as.inverse.bounds[0].all);
+    TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, work.as.inverse.bounds[0].second);
+}
+
 static void what_does_not_last_may_hide_an_error_too(void)
 {
     work.sums = double_sums(1, 0.5, 1.0);
@@ -469,6 +480,7 @@ int main(void)
     RUN_TEST(ready_takes_three_judgements_and_is_lost_beyond_a_fifth_more);
     RUN_TEST(a_few_blocks_tell_no_bounds);
     RUN_TEST(what_is_missing_is_named);
+    RUN_TEST(a_covariance_that_is_no_number_has_no_bounds);
     RUN_TEST(what_does_not_last_may_hide_an_error_too);
     RUN_TEST(noise_alone_is_no_misfit);
     RUN_TEST(progress_is_the_share_of_the_way_to_the_bound);

@@ -119,10 +119,29 @@ static void a_block_that_is_open_moves_by_its_time(void)
     }
 }
 
+static void without_a_closed_block_there_is_no_scatter_to_move(void)
+{
+    double blocks[BLOCKS][N], matrix[N][N];
+    float d[N] = {0.0f};
+    fill(blocks, matrix);
+    for (unsigned k = 0; k < JCAL_SYM_SIZE(N); ++k) {
+        sums.scatter[k] = 0.0f;
+    }
+    sums.blocks = 0.0f;
+    const float gradient = sums.gradient[3];
+    d[2] = 0.01f;
+    jcal_center_sums_move(&sums, d);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, gradient + (float)(BLOCKS * 0.01 * matrix[3][2]), sums.gradient[3]);
+    for (unsigned k = 0; k < JCAL_SYM_SIZE(N); ++k) {
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, sums.scatter[k]);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(blocks_that_are_alike_move_exactly);
     RUN_TEST(a_block_that_is_open_moves_by_its_time);
+    RUN_TEST(without_a_closed_block_there_is_no_scatter_to_move);
     return UNITY_END();
 }

@@ -500,6 +500,9 @@ static void the_weaker_joint_is_named(void)
     say(&engine.hip, JCAL_READY, JCAL_REASON_NONE, 0.009f);
     say(&engine.knee, JCAL_MOVED, JCAL_REASON_UNCERTAIN, 0.009f);
     assert_said(JCAL_MOVED, JCAL_WEAK_CENTER2, JCAL_REASON_UNCERTAIN);
+    say(&engine.hip, JCAL_MOVED, JCAL_REASON_UNCERTAIN, 0.03f);
+    say(&engine.knee, JCAL_COLLECTING, JCAL_REASON_UNCERTAIN, 0.009f);
+    assert_said(JCAL_MOVED, JCAL_WEAK_CENTER1, JCAL_REASON_UNCERTAIN);
 }
 
 static void there_are_places_once_both_joints_have_theirs(void)

@@ -240,7 +240,15 @@ static void arguments_are_checked(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_two_dof(&follower, good, good, NAN, 5.0f));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_hinge(NULL, good, good, 1.0f));
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_joint_heading_hinge(&follower, good, good, 1.0f));
+    jcal_orientation_pair_t pair = {0u, {1.0f, 0.0f, 0.0f, 0.0f}, {1.0f, 0.0f, 0.0f, 0.0f}};
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_push(&follower, NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_push(NULL, &pair));
+    pair.q1.x = NAN;
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_joint_heading_push(&follower, &pair));
+    pair.q1.x = 0.0f;
+    pair.q2.z = INFINITY;
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_joint_heading_push(&follower, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_get(&follower, NULL));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_improve(NULL, good, good, 0.0f));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_improve(&follower, bad[0], good, 0.0f));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_joint_heading_improve(&follower, good, bad[1], 0.0f));

@@ -408,6 +408,14 @@ static void smoothing_lowers_the_noise_of_the_residual(void)
     TEST_ASSERT_TRUE(power[0] < 0.08 * power[1]);
 }
 
+static void a_bin_takes_64_samples_at_most(void)
+{
+    center_motion_t m = center_lively(1);
+    m.rate_hz = 8000.0; /* 160 would fit into 20 ms */
+    jcal_kinematic_t out;
+    TEST_ASSERT_EQUAL_UINT32(1u + 5u * 64u, feed(&m, 0u, 1000u, &FIVE_POINT, &out));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -430,5 +438,6 @@ int main(void)
     RUN_TEST(an_orientation_and_its_negative_in_one_bin_are_the_same);
     RUN_TEST(bins_are_as_far_apart_as_their_middles);
     RUN_TEST(smoothing_lowers_the_noise_of_the_residual);
+    RUN_TEST(a_bin_takes_64_samples_at_most);
     return UNITY_END();
 }

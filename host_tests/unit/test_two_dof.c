@@ -432,6 +432,8 @@ static void every_field_out_of_its_range_is_named(void)
     c = config;
     c.constraint = (jcal_constraint_t)3;
     TEST_ASSERT_EQUAL_STRING("constraint", jcal_two_dof_config_check(&c));
+    c.constraint = (jcal_constraint_t)-1;
+    TEST_ASSERT_EQUAL_STRING("constraint", jcal_two_dof_config_check(&c));
 }
 
 static void before_any_data_nothing_is_claimed(void)

@@ -340,10 +340,8 @@ static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
     verdict->agreed = (uint8_t)((verdict->agreed < AGREED_MIN) ? (verdict->agreed + 1u) : AGREED_MIN);
     if (verdict->agreed >= AGREED_MIN) {
         verdict->status = (uint8_t)JCAL_READY;
-    } else if (verdict->status != (uint8_t)JCAL_READY) {
-        verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
     } else {
-        /* stays ready */
+        verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
     }
 }
 
