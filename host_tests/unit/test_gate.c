@@ -60,6 +60,11 @@ static void the_first_sample_is_checked_for_range_too(void)
         *component(&pair, field) = is_rate(field) ? 40.0f : 400.0f;
         TEST_ASSERT_EQUAL_INT(JCAL_REJECT_OUT_OF_RANGE, check(&pair));
     }
+    config.acc_max_m_s2 = 20.0f; /* below what gravity may seem to be at first */
+    jcal_gate_init(&gate);
+    jcal_pair_t pair = good();
+    pair.imu2.acc_m_s2 = jcal_vec3(0.0f, -25.0f, 0.0f);
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECT_OUT_OF_RANGE, check(&pair));
 }
 
 /* The sensor turns: its largest rate is above what noise at rest can be. */

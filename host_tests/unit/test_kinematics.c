@@ -414,6 +414,9 @@ static void a_bin_takes_64_samples_at_most(void)
     m.rate_hz = 8000.0; /* 160 would fit into 20 ms */
     jcal_kinematic_t out;
     TEST_ASSERT_EQUAL_UINT32(1u + 5u * 64u, feed(&m, 0u, 1000u, &FIVE_POINT, &out));
+    jcal_kinematics_begin(&chain);
+    m.rate_hz = 20.0; /* ... and one at least */
+    TEST_ASSERT_EQUAL_UINT32(1u + 5u, feed(&m, 0u, 1000u, &FIVE_POINT, &out));
 }
 
 int main(void)

@@ -128,6 +128,20 @@ static void a_repeated_quaternion_is_a_lost_packet_and_then_frozen(void)
     }
 }
 
+static void a_change_of_any_component_is_a_new_value(void)
+{
+    for (int component = 0; component < 4; ++component) {
+        setUp();
+        jcal_orientation_pair_t pair = next(1);
+        TEST_ASSERT_EQUAL_INT(JCAL_REJECT_NONE, check(&pair));
+        pair.t_us += 10000u;
+        float *const parts[4] = {&pair.q1.w, &pair.q1.x, &pair.q1.y, &pair.q1.z};
+        *parts[component] += 0.01f;
+        pair.q2 = next(2).q2;
+        TEST_ASSERT_EQUAL_INT(JCAL_REJECT_NONE, check(&pair));
+    }
+}
+
 static void a_turned_sign_is_another_number_but_the_same_orientation(void)
 {
     jcal_orientation_pair_t pair = next(1);
@@ -216,6 +230,7 @@ int main(void)
     RUN_TEST(lengths_may_differ_from_one_by_a_twentieth);
     RUN_TEST(time_must_increase);
     RUN_TEST(a_repeated_quaternion_is_a_lost_packet_and_then_frozen);
+    RUN_TEST(a_change_of_any_component_is_a_new_value);
     RUN_TEST(a_turned_sign_is_another_number_but_the_same_orientation);
     RUN_TEST(the_first_pair_after_a_hole_is_refused);
     RUN_TEST(the_cause_that_counts_is_the_first);

@@ -209,6 +209,17 @@ static void the_mean_is_that_of_the_sines(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, mean, (double)jcal_two_dof_mean(&moments, &point));
 }
 
+static void sums_of_nothing_cost_nothing(void)
+{
+    const jcal_two_dof_point_t point = point_of(4);
+    jcal_two_dof_guess_t guess = {{1.0f, 0.0f}, 1.0f};
+    memset(&moments, 0, sizeof moments);
+    jcal_two_dof_costs(&moments, JCAL_CONSTRAINT_COMBINED, &point, &guess, 1u);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, lin_at(JCAL_CONSTRAINT_COMBINED, &point, NULL).cost);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, guess.cost);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_two_dof_mean(&moments, &point));
+}
+
 static void turned_sums_are_those_of_another_heading(void)
 {
     const double angle = 0.37;
@@ -381,6 +392,7 @@ int main(void)
     RUN_TEST(the_matrix_is_made_of_the_residuals_slopes);
     RUN_TEST(costs_of_many_headings_are_those_of_each);
     RUN_TEST(the_mean_is_that_of_the_sines);
+    RUN_TEST(sums_of_nothing_cost_nothing);
     RUN_TEST(turned_sums_are_those_of_another_heading);
     RUN_TEST(fading_is_a_factor);
     RUN_TEST(the_prior_is_the_sums_with_the_heading_eliminated);
