@@ -212,6 +212,21 @@ static void the_first_step_takes_50_samples(void)
     TEST_ASSERT_TRUE(engine.count >= 50u);
 }
 
+static void free_fall_tells_the_watch_nothing(void)
+{
+    const center_motion_t m = center_lively(2);
+    run(&m, 0.0, 2.0);
+    float recent = 0.0f;
+    for (uint32_t k = 100u; k < 130u; ++k) {
+        jcal_pair_t pair = center_sample(&m, k);
+        pair.imu2.acc_m_s2 = jcal_vec3(0.0f, 1e-3f * (float)(k % 2u), 0.0f);
+        pair.imu2.gyr_rad_s = jcal_vec3_scale(pair.imu2.gyr_rad_s, 1e-3f);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_window_update(&engine, &pair));
+        recent = (k == 115u) ? engine.watch.recent[0] : recent;
+    }
+    TEST_ASSERT_EQUAL_FLOAT(recent, engine.watch.recent[0]);
+}
+
 static void rest_tells_the_watch_nothing(void)
 {
     center_motion_t m = center_lively(2);
@@ -385,6 +400,7 @@ int main(void)
     RUN_TEST(slow_samples_are_left_out_if_asked_for);
     RUN_TEST(a_full_window_holds_the_last_samples_and_ends_with_the_newest);
     RUN_TEST(the_first_step_takes_50_samples);
+    RUN_TEST(free_fall_tells_the_watch_nothing);
     RUN_TEST(rest_tells_the_watch_nothing);
     RUN_TEST(no_step_is_longer_than_30_cm);
     RUN_TEST(judgements_are_half_a_second_apart);

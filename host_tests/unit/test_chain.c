@@ -593,6 +593,16 @@ static void every_field_out_of_its_range_is_named(void)
     TEST_ASSERT_EQUAL_STRING("hinge_axis1", jcal_chain_config_check(&config));
 }
 
+static void a_joint_without_a_sample_does_not_hold_up_the_other(void)
+{
+    const chain_motion_t m = chain_lively(0);
+    jcal_triple_t triple = chain_sample(&m, 0);
+    triple.imu1.gyr_rad_s.x = NAN; /* the pelvis: of the hip alone */
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_chain_push(&engine, &triple, NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chain_step(&engine));
+    TEST_ASSERT_EQUAL_INT(JCAL_IDLE, jcal_chain_step(&engine));
+}
+
 static void null_is_refused(void)
 {
     const chain_motion_t m = chain_lively(0);
@@ -653,6 +663,7 @@ int main(void)
     RUN_TEST(a_slip_of_the_shanks_sensor_is_noticed);
     RUN_TEST(rejected_samples_are_counted_once);
     RUN_TEST(every_field_out_of_its_range_is_named);
+    RUN_TEST(a_joint_without_a_sample_does_not_hold_up_the_other);
     RUN_TEST(null_is_refused);
     RUN_TEST(reset_forgets_and_a_full_inbox_says_so);
     return UNITY_END();

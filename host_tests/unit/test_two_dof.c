@@ -447,6 +447,35 @@ static void before_any_data_nothing_is_claimed(void)
     TEST_ASSERT_EQUAL_INT(JCAL_IDLE, jcal_two_dof_step(&engine));
 }
 
+static void no_orientation_is_lost_where_samples_become_rarer(void)
+{
+    /* At 100 Hz the work on one that is kept is shared out over four steps; then there is a step for each only. */
+    const sim_t sim = lively(1);
+    float gain[3];
+    feed(&engine, &sim, 0, 100);
+    for (uint32_t i = 0; i < 3u; ++i) {
+        const jcal_orientation_pair_t pair = sample_of(&sim, 100u + (4u * i));
+        const float weight = engine.moments.weight;
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_update(&engine, &pair));
+        gain[i] = engine.moments.weight - weight;
+    }
+    TEST_ASSERT_TRUE(gain[1] > 1.5f * gain[2]); /* what was left over, and its own */
+}
+
+static void pushes_without_a_step_do_not_overflow(void)
+{
+    const sim_t sim = lively(1);
+    jcal_orientation_pair_t pair = sample_of(&sim, 0);
+    const uint64_t begin_us = pair.t_us;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_update(&engine, &pair));
+    for (uint32_t k = 1; k < 600u; ++k) {
+        pair = sample_of(&sim, k);
+        pair.t_us = begin_us + (10u * k); /* none of which is kept */
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &pair));
+    }
+    TEST_ASSERT_EQUAL_UINT8(UINT8_MAX, engine.pushes);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -468,5 +497,7 @@ int main(void)
     RUN_TEST(reset_forgets_all_but_the_config);
     RUN_TEST(every_field_out_of_its_range_is_named);
     RUN_TEST(before_any_data_nothing_is_claimed);
+    RUN_TEST(no_orientation_is_lost_where_samples_become_rarer);
+    RUN_TEST(pushes_without_a_step_do_not_overflow);
     return UNITY_END();
 }
