@@ -131,7 +131,7 @@ def hinge_header() -> str:
     ]
     return f"""/* SPDX-License-Identifier: MIT */
 /// @file
-/// Golden vectors of the hinge in float64, generated: do not edit. Compared by unit/test_golden_hinge.c.
+/// Golden vectors of the hinge in float64, generated: do not edit. Compared by unit/hinge/test_golden.c.
 ///
 /// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
 #ifndef GOLDEN_HINGE_H
@@ -189,7 +189,7 @@ def two_dof_header() -> str:
     ]
     return f"""/* SPDX-License-Identifier: MIT */
 /// @file
-/// Golden vectors of the 2-DoF joint in float64, generated: do not edit. Compared by unit/test_golden_two_dof.c.
+/// Golden vectors of the 2-DoF joint in float64, generated: do not edit. Compared by unit/two_dof/test_golden.c.
 ///
 /// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
 #ifndef GOLDEN_TWO_DOF_H
@@ -242,7 +242,7 @@ def center_header() -> str:
     ]
     return f"""/* SPDX-License-Identifier: MIT */
 /// @file
-/// Golden vectors of the joint centre in float64, generated: do not edit. Compared by unit/test_golden_center.c.
+/// Golden vectors of the joint centre in float64, generated: do not edit. Compared by unit/center/test_golden.c.
 ///
 /// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
 #ifndef GOLDEN_CENTER_H
@@ -268,7 +268,7 @@ class Row(NamedTuple):
 
 
 class Tie(NamedTuple):
-    """One case of hip and knee. Places of the state: lib/calib/chain_tie.h."""
+    """One case of hip and knee. Places of the state: lib/chain/tie.h."""
 
     biases: bool
     normal: np.ndarray  # (3,); zero: no plane
@@ -383,7 +383,7 @@ def chain_header() -> str:
     targets = float32(slopes @ mean + 0.05 * rng.standard_normal(CHAIN_OBSERVED))
     observed = least_squares(mean, covariance, [Row(*row) for row in zip(slopes, targets, sd, strict=True)])
     tables = [
-        table("golden_means", "What hip and knee know: states as in calib/chain_tie.h.", np.array([m for m, _ in gaussians]), "float"),
+        table("golden_means", "What hip and knee know: states as in chain/tie.h.", np.array([m for m, _ in gaussians]), "float"),
         table("golden_covariances", "Their covariances, packed.", np.array([packed(c) for _, c in gaussians]), "float"),
         table("golden_ties", "1 if biases are tied, normal of the plane, its tolerance, m, length, m, its tolerance, 1 if nothing "
               "contradicts.", np.array([[t.biases, *t.normal, t.plane_sd, t.length, t.length_sd, t.fits] for t in ties], float), "float"),
@@ -396,7 +396,7 @@ def chain_header() -> str:
     ]
     return f"""/* SPDX-License-Identifier: MIT */
 /// @file
-/// Golden vectors of what ties hip and knee, in float64, generated: do not edit. Compared by unit/test_golden_chain.c.
+/// Golden vectors of what ties hip and knee, in float64, generated: do not edit. Compared by unit/chain/test_golden.c.
 ///
 /// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
 #ifndef GOLDEN_CHAIN_H

@@ -55,7 +55,8 @@ class Worker:
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
         self.call("cmake", *generator, "-S", folder, "-B", self.build, "-DCMAKE_BUILD_TYPE=Release",
                   "-DJOINTCAL_BUILD_PROGRAM=OFF", "-DJOINTCAL_INSTALL=OFF", "-DJOINTCAL_WERROR=OFF", check=True)
-        self.targets = sorted(path.stem for path in (folder / "host_tests" / "unit").glob("test_*.c"))
+        self.targets = sorted(f"test_{path.parent.name}_{path.stem[len('test_'):]}"
+                              for path in (folder / "host_tests" / "unit").glob("*/test_*.c"))
 
     def call(self, *command, check: bool = False) -> subprocess.CompletedProcess:
         return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=check)
@@ -133,7 +134,7 @@ def write_table(outcomes: list[Outcome]) -> None:
              "| file | text | becomes | what it breaks | noticed by |", "| --- | --- | --- | --- | --- |"]
     for (file, old, new, what), outcome in zip(MUTATIONS, outcomes, strict=True):
         noticed = outcome.by if outcome.killed else "nothing: " + SURVIVORS.get(old, "NO REASON GIVEN")
-        lines.append(f"| {Path(file).name} | {cell(old)} | {cell(new)} | {what.replace('|', chr(92) + '|')} | {noticed} |")
+        lines.append(f"| {Path(*Path(file).parts[1:])} | {cell(old)} | {cell(new)} | {what.replace('|', chr(92) + '|')} | {noticed} |")
     TABLE.write_text("\n".join(lines) + "\n")
 
 

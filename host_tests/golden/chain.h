@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Golden vectors of what ties hip and knee, in float64, generated: do not edit. Compared by unit/test_golden_chain.c.
+/// Golden vectors of what ties hip and knee, in float64, generated: do not edit. Compared by unit/chain/test_golden.c.
 ///
 /// Generator tools/make_golden.py, seed 42, numpy 1.24.2.
 #ifndef GOLDEN_CHAIN_H
@@ -11,7 +11,7 @@
 #define GOLDEN_STATES 18
 #define GOLDEN_OBSERVED 3
 
-/// What hip and knee know: states as in calib/chain_tie.h.
+/// What hip and knee know: states as in chain/tie.h.
 static const float golden_means[9][18] = {
     {1.09582417e-01f, -2.44486239e-02f, 1.43439174e-01f, 7.89472088e-02f,
      -1.62329063e-01f, 1.90248936e-01f, 2.61139702e-02f, 2.86064297e-02f,

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Golden vectors of the hinge in float64, generated: do not edit. Compared by unit/test_golden_hinge.c.
+/// Golden vectors of the hinge in float64, generated: do not edit. Compared by unit/hinge/test_golden.c.
 ///
 /// Generator tools/make_golden.py, seed 42, numpy 1.24.2.
 #ifndef GOLDEN_HINGE_H

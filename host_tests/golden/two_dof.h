@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Golden vectors of the 2-DoF joint in float64, generated: do not edit. Compared by unit/test_golden_two_dof.c.
+/// Golden vectors of the 2-DoF joint in float64, generated: do not edit. Compared by unit/two_dof/test_golden.c.
 ///
 /// Generator tools/make_golden.py, seed 42, numpy 1.24.2.
 #ifndef GOLDEN_TWO_DOF_H

@@ -85,7 +85,7 @@ typedef struct {
     jcal_vec3_t hinge_axis2;
 } jcal_center_config_t;
 
-/// Number of features of the squared residual; lib/calib/center_model.h says which.
+/// Number of features of the squared residual; lib/center/model.h says which.
 #define JCAL_CENTER_FEATURES 19
 
 /// Unknowns: r1, r2, biases of the accelerometers.
@@ -104,7 +104,7 @@ typedef struct {
     bool is_oriented;      ///< Unknown 6 is the heading; biases are zero.
 } jcal_center_point_t;
 
-/// Private: sums at the estimate; lib/calib/center_sums.h has the equations.
+/// Private: sums at the estimate; lib/center/sums.h has the equations.
 typedef struct {
     jcal_center_point_t point;   ///< The estimate.
     jcal_center_place_t anchor;  ///< Where it was when the sums began.

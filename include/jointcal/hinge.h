@@ -77,7 +77,7 @@ typedef struct {
     float slices_per_s;
 } jcal_hinge_config_t;
 
-/// Number of features of the gyroscope residual; lib/calib/hinge_model.h says which.
+/// Number of features of the gyroscope residual; lib/hinge/model.h says which.
 #define JCAL_HINGE_FEATURES 12
 
 /// Private: weighted sums over all samples, packed symmetric.
@@ -109,7 +109,7 @@ typedef struct {
     float along;          ///< Along j.
 } jcal_hinge_view_t;
 
-/// Private: sums of the current block; lib/calib/hinge_refine.h has the equations.
+/// Private: sums of the current block; lib/hinge/refine.h has the equations.
 typedef struct {
     float matrix[45];          ///< Packed 9 x 9: tilts of axis 1, of axis 2, biases of sensor 1, of sensor 2, phase.
     float gradient[9];         ///< Half the gradient in the same unknowns.
@@ -125,7 +125,7 @@ typedef struct {
     jcal_plane_t path2;
 } jcal_hinge_block_t;
 
-/// Private: what the last seconds alone say of the axes; lib/calib/hinge_slip.h.
+/// Private: what the last seconds alone say of the axes; lib/hinge/slip.h.
 typedef struct {
     float gradient[4];  ///< Half the gradient of the tilts, biases eliminated.
     float matrix[10];   ///< Packed 4 x 4.

@@ -73,7 +73,7 @@ typedef struct {
 
 /// Private: a full solve on its way.
 typedef struct {
-    uint8_t phase;       ///< See lib/calib/hinge_window_solve.c.
+    uint8_t phase;       ///< See lib/hinge/window_solve.c.
     uint8_t iterations;  ///< Done in this phase.
     float damping;
     uint32_t random;          ///< State of the generator of starts.

@@ -66,7 +66,7 @@ typedef struct {
     float memory_s;
 } jcal_two_dof_config_t;
 
-/// Number of features of each constraint; lib/calib/two_dof_model.h says which.
+/// Number of features of each constraint; lib/two_dof/model.h says which.
 #define JCAL_TWO_DOF_FEATURES 27
 
 /// Private: the unknowns.

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Giving up some of what the refined axes' sums know. See hinge/refine.h.
+#include "hinge/refine.h"
+
+#include "math/scalar.h"
+#include "math/sym.h"
+
+#define TILTS JCAL_HINGE_TILTS
+#define UNKNOWNS JCAL_HINGE_UNKNOWNS
+
+/// What says how well the residuals are known, not what they say.
+static void fade_counts(jcal_hinge_refine_t *self, float share)
+{
+    self->cost *= share;
+    self->units *= share;
+    self->joint *= share;
+    self->across *= share;
+    self->blocks *= share;
+    self->time_s *= share;
+    self->same *= share;
+    self->other *= share;
+    self->sign_time_s *= share;
+}
+
+void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share)
+{
+    jcal_sym_scale(self->matrix, UNKNOWNS, share);
+    jcal_sym_scale(self->scatter, TILTS, share);
+    for (unsigned i = 0u; i < UNKNOWNS; ++i) {
+        self->gradient[i] *= share;
+    }
+    for (unsigned i = 0u; i < TILTS; ++i) {
+        self->lean[i] *= share;
+    }
+    for (unsigned axis = 0u; axis < 2u; ++axis) {
+        self->along[axis] *= share;
+        self->lever[axis] *= share;
+        self->told[axis] *= share;
+        self->told2[axis] *= share;
+    }
+    self->information *= share;
+    self->information2 *= share;
+    fade_counts(self, share);
+}
+
+/// Eliminates a share 1 - keep of unknown p from matrix and gradient; keep = 0 leaves the information about the others alone.
+static void eliminate(jcal_hinge_refine_t *self, unsigned p, float keep)
+{
+    const float pivot = jcal_max(self->matrix[jcal_sym_at(p, p)], 1e-20f);
+    float column[UNKNOWNS];
+    for (unsigned i = 0u; i < UNKNOWNS; ++i) {
+        column[i] = self->matrix[jcal_sym_at(i, p)];
+    }
+    const float of_p = self->gradient[p];
+    for (unsigned i = 0u; i < UNKNOWNS; ++i) {
+        const float share = (1.0f - keep) * column[i] / pivot;
+        for (unsigned k = 0u; k <= i; ++k) {
+            self->matrix[jcal_sym_at(i, k)] -= share * column[k];
+        }
+        self->gradient[i] -= share * of_p;
+    }
+}
+
+void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, float keep)
+{
+    const unsigned first = 2u * axis;
+    for (unsigned i = 0u; i < TILTS; ++i) {
+        for (unsigned k = 0u; k <= i; ++k) {
+            const bool touches = ((i / 2u) == axis) || ((k / 2u) == axis);
+            self->scatter[jcal_sym_at(i, k)] *= touches ? keep : 1.0f;
+        }
+    }
+    for (unsigned i = first; i < (first + 2u); ++i) {
+        eliminate(self, i, keep);
+        self->lean[i] *= keep;
+    }
+    self->along[axis] *= keep;
+    self->lever[axis] *= keep;
+    self->told[axis] *= keep;
+    self->told2[axis] *= keep;
+}
+
+void jcal_hinge_refine_forget(jcal_hinge_refine_t *self, unsigned axis, float keep)
+{
+    jcal_hinge_refine_forget_axis(self, axis, keep);
+    self->information *= keep;
+    self->information2 *= keep;
+    fade_counts(self, keep);
+}

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// What the stream engine of the hinge tells its user.
+#include "hinge/point.h"
+#include "jointcal/hinge.h"
+#include "jointcal/vec3.h"
+#include "math/scalar.h"
+
+#include <float.h>
+#include <stddef.h>
+
+static float progress(float bound_rad, float max_bound_rad)
+{
+    return jcal_min(1.0f, max_bound_rad / jcal_max(bound_rad, FLT_MIN));
+}
+
+static void tell_verdict(const jcal_hinge_t *self, jcal_hinge_result_t *result)
+{
+    const jcal_hinge_verdict_t *const verdict = &self->verdict;
+    result->status = (jcal_calibration_t)verdict->status;
+    result->weak = (jcal_weak_t)verdict->weak;
+    result->hint = (jcal_hint_t)verdict->hint;
+    result->reason = (jcal_reason_t)verdict->reason;
+    result->uncertainty1_rad = verdict->bound1_rad;
+    result->uncertainty2_rad = verdict->bound2_rad;
+    result->sign_margin = verdict->sign_margin;
+    result->progress_axis1 = progress(verdict->bound1_rad, self->cfg.max_bound_rad);
+    result->progress_axis2 = progress(verdict->bound2_rad, self->cfg.max_bound_rad);
+    result->progress_sign = (self->cfg.sign_hint != JCAL_SIGN_UNKNOWN) ? 1.0f : verdict->sign_progress;
+    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
+    if (complaint != JCAL_REASON_NONE) { /* a sensor that fails sends nothing that a judgement would follow */
+        result->status = JCAL_COLLECTING;
+        result->reason = complaint;
+        result->hint = JCAL_HINT_CHECK_SENSORS;
+    }
+}
+
+jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
+{
+    if ((self == NULL) || (out == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    jcal_hinge_result_t result = {0};
+    result.engine = JCAL_ENGINE_STREAM;
+    tell_verdict(self, &result);
+    result.has_axes = self->has_point;
+    if (self->has_point) {
+        const float sign = jcal_hinge_main_sign(self->refine.point.axis1.j);
+        result.axis1 = jcal_vec3_scale(self->refine.point.axis1.j, sign);
+        result.axis2 = jcal_vec3_scale(self->refine.point.axis2.j, sign);
+    }
+    result.t_us = self->last_us;
+    result.samples = self->gate.samples;
+    for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
+        result.rejected_by[i] = self->gate.rejected_by[i];
+        result.rejected += self->gate.rejected_by[i];
+    }
+    *out = result;
+    return JCAL_OK;
+}

@@ -1,0 +1,387 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Stream engine of the hinge: config, samples into sums, and the schedule of the work. Method: docs/METHOD.md.
+#include "jointcal/hinge.h"
+
+#include "hinge/judge.h"
+#include "hinge/model.h"
+#include "hinge/point.h"
+#include "hinge/refine.h"
+#include "hinge/search.h"
+#include "hinge/slip.h"
+#include "hinge/stream.h"
+#include "joint/watch.h"
+#include "jointcal/vec3.h"
+#include "math/clear.h"
+#include "math/scalar.h"
+#include "math/solve.h"
+#include "math/sym.h"
+#include "sample/inbox.h"
+
+#include <math.h>
+#include <stddef.h>
+
+#define MICROSECONDS 1e-6f
+#define DEGREE 0.0174532925f
+
+/// A sample stands for the time since the one before it, but never for more than this, s.
+#define STEP_MAX_S 0.05f
+
+/// Keeps the weight 1 / (|w1|^2 + |w2|^2 + eps) finite at rest, (rad/s)^2; docs/METHOD.md section 2.
+#define RATE_EPS 0.05f
+
+/// Time constant of the product of the rates, s.
+#define PRODUCT_TIME_S 0.2f
+
+/// Readings of the same pose add little: their weight falls like 1 / (1 + t) while both specific forces stay within
+/// this, (m/s^2)^2, and is nothing after DWELL_MAX_S: hours of it would only round.
+#define DWELL_ACC2 1.0f
+#define DWELL_MAX_S 10.0f
+
+/// Rest: both rates below this, squared sum, (rad/s)^2. Its weight falls like 1 / (1 + t^2), so that a rest of any length counts as
+/// 1.6 s; after REST_MAX_S the refined axes leave it out too.
+#define REST_RATE2 0.02f
+#define REST_MAX_S 1.0f
+
+/// Errors in |w1| - |w2| that no joint motion causes: scale errors as a share of the rate, and noise, rad/s.
+#define DIFFERENCE_SHARE 0.03f
+#define DIFFERENCE_NOISE_RAD_S 0.02f
+
+/// Growth of the usual residual of the rates with them, squared: scale and misalignment of the gyroscopes.
+#define RATE_SHARE2 4e-4f
+
+/// Share of the accelerometers' assumed variance that changes within a second; the rest, biases say, is there all the time.
+#define WATCH_ACC_SHARE 0.3f
+
+/// Axes may be off by this, rad, beyond their bounds before a sensor is said to have moved.
+#define SLIP_RAD 0.06f
+
+/// Sums are halved when they reach this: half an hour at 1 rad/s, four minutes at 3 rad/s, rad^2/s. One more sample then changes a
+/// sum by 2^-17 of itself, a hundred times what float32 resolves.
+#define MOTION_MAX 3600.0f
+#define ACC_WEIGHT_MAX 2e4f
+
+/// Slices of work are paid for with time, so that the work per second does not depend on the rate: with four times as much once the
+/// calibration is ready and changes slowly.
+#define SLICES_PER_S 200.0f
+#define PRICE_READY 4.0f
+#define SLICES_MAX 10u
+/// A judgement, and a block of the refined axes that closes, cost more than other slices. Where slices are few, a block costs this
+/// much time or that of its step, so that blocks leave some to the other slices, and there is no other work in that step.
+#define JUDGE_SLICES 2.0f
+#define CLOSE_SLICES 3.0f
+#define CLOSE_S 0.015f
+#define SLICES_PER_CYCLE 8u
+#define SETTLED_ROUNDS 4u
+
+typedef char jcal_hinge_fits_its_budget[(sizeof(jcal_hinge_t) <= 2048u) ? 1 : -1];
+
+jcal_hinge_config_t jcal_hinge_config_default(void)
+{
+    jcal_hinge_config_t config;
+    config.gate = jcal_gate_config_default();
+    config.max_bound_rad = 3.0f * DEGREE;
+    config.rate_mismatch = 0.002f;
+    config.gyr_noise_rad_s = 0.03f;
+    config.acc_noise_m_s2 = 1.5f;
+    config.lever_arm_m = 1.0f;
+    config.gyr_bias_rad_s = 0.007f;
+    config.acc_bias_m_s2 = 0.5f;
+    config.sign_hint = JCAL_SIGN_UNKNOWN;
+    config.slices_per_s = SLICES_PER_S;
+    return config;
+}
+
+typedef struct {
+    const char *name;
+    float value, low, high;
+} field_t;
+
+const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
+{
+    const field_t fields[] = {
+        {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
+        {"rate_mismatch", config->rate_mismatch, 0.0f, 0.05f},
+        {"gyr_noise_rad_s", config->gyr_noise_rad_s, 1e-4f, 1.0f},
+        {"acc_noise_m_s2", config->acc_noise_m_s2, 1e-3f, 10.0f},
+        {"lever_arm_m", config->lever_arm_m, 0.0f, 5.0f},
+        {"gyr_bias_rad_s", config->gyr_bias_rad_s, 1e-5f, 0.2f},
+        {"acc_bias_m_s2", config->acc_bias_m_s2, 1e-4f, 5.0f},
+        {"slices_per_s", config->slices_per_s, 20.0f, 800.0f},
+    };
+    for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
+        if (!((fields[i].value >= fields[i].low) && (fields[i].value <= fields[i].high))) {
+            return fields[i].name;
+        }
+    }
+    const int hint = (int)config->sign_hint;
+    if ((hint < (int)JCAL_SIGN_UNKNOWN) || (hint > (int)JCAL_SIGN_OPPOSITE)) {
+        return "sign_hint";
+    }
+    return jcal_gate_config_check(&config->gate);
+}
+
+/// Empties what was learnt of the joint: all that follows the inbox. Push, which may preempt this, does not touch it.
+static void clear(jcal_hinge_t *self)
+{
+    const size_t first = offsetof(jcal_hinge_t, moments);
+    jcal_clear((unsigned char *)self + first, sizeof *self - first);
+    self->damping = JCAL_GN_DAMPING_START;
+    self->verdict.bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
+    self->verdict.bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
+    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
+    self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+    self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+}
+
+void jcal_hinge_start(jcal_hinge_t *self, const jcal_hinge_config_t *config)
+{
+    const jcal_hinge_config_t cfg = *config; /* the caller may hand over self->cfg */
+    jcal_clear(self, sizeof *self);
+    self->cfg = cfg;
+    jcal_gate_init(&self->gate);
+    clear(self);
+}
+
+jcal_status_t jcal_hinge_init(jcal_hinge_t *self, const jcal_hinge_config_t *config)
+{
+    if ((self == NULL) || (config == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_hinge_config_check(config) != NULL) {
+        return JCAL_ERR_CONFIG;
+    }
+    jcal_hinge_start(self, config);
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_hinge_reset(jcal_hinge_t *self)
+{
+    return (self == NULL) ? JCAL_ERR_ARG : jcal_hinge_init(self, &self->cfg);
+}
+
+jcal_status_t jcal_hinge_push(jcal_hinge_t *self, const jcal_pair_t *pair)
+{
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_inbox_full(&self->inbox)) {
+        return JCAL_ERR_FULL;
+    }
+    if (jcal_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
+        return JCAL_REJECTED;
+    }
+    jcal_inbox_put(&self->inbox, pair);
+    return JCAL_OK;
+}
+
+/// Time that pays for one slice before the calibration is ready, s.
+static float slice_s(const jcal_hinge_t *self)
+{
+    return 1.0f / self->cfg.slices_per_s;
+}
+
+/// Variance of the accelerometers' residual (25) of [OLS20], (m/s^2)^2: it grows with fast motion, where (17) is not zero.
+static float acc_variance(const jcal_hinge_t *self)
+{
+    const float violation = self->cfg.lever_arm_m * self->rate_product;
+    return (self->cfg.acc_noise_m_s2 * self->cfg.acc_noise_m_s2) + (violation * violation);
+}
+
+/// Weight of the accelerometer reading: less in fast motion and while a pose lasts.
+static float acc_weight(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+{
+    const float share = sample->dt_s / (sample->dt_s + PRODUCT_TIME_S);
+    self->rate_product += share * (sqrtf(sample->w1_2 * sample->w2_2) - self->rate_product);
+    const jcal_vec3_t away1 = jcal_vec3_sub(sample->a1, self->rest_acc1);
+    const jcal_vec3_t away2 = jcal_vec3_sub(sample->a2, self->rest_acc2);
+    if ((jcal_vec3_dot(away1, away1) + jcal_vec3_dot(away2, away2)) > DWELL_ACC2) {
+        self->rest_acc1 = sample->a1;
+        self->rest_acc2 = sample->a2;
+        self->dwell_s = 0.0f;
+    }
+    self->dwell_s += sample->dt_s;
+    if (self->dwell_s > DWELL_MAX_S) {
+        return 0.0f; /* so small a weight would only round */
+    }
+    return (sample->dt_s / JCAL_HINGE_UNIT_S) / (acc_variance(self) * (1.0f + self->dwell_s));
+}
+
+static jcal_hinge_sample_t weigh(jcal_hinge_t *self, const jcal_pair_t *pair, float dt_s)
+{
+    jcal_hinge_sample_t sample;
+    sample.w1 = pair->imu1.gyr_rad_s;
+    sample.w2 = pair->imu2.gyr_rad_s;
+    sample.a1 = pair->imu1.acc_m_s2;
+    sample.a2 = pair->imu2.acc_m_s2;
+    sample.w1_2 = jcal_vec3_dot(sample.w1, sample.w1);
+    sample.w2_2 = jcal_vec3_dot(sample.w2, sample.w2);
+    sample.dt_s = dt_s;
+    sample.acc_weight = acc_weight(self, &sample);
+    return sample;
+}
+
+/// Sums that limit or gate all others.
+static void watch(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+{
+    const float difference = fabsf(sqrtf(sample->w1_2) - sqrtf(sample->w2_2));
+    const float errors = (DIFFERENCE_SHARE * sqrtf(jcal_max(sample->w1_2, sample->w2_2))) + DIFFERENCE_NOISE_RAD_S;
+    const float excess = jcal_max(difference - errors, 0.0f);
+    self->excitation += sample->dt_s * excess * excess;
+    self->motion += sample->dt_s * (sample->w1_2 + sample->w2_2);
+    self->weight_acc += sample->acc_weight;
+    self->weight_acc2 += sample->acc_weight * sample->acc_weight / sample->dt_s;
+    self->rest_s = ((sample->w1_2 + sample->w2_2) < REST_RATE2) ? (self->rest_s + sample->dt_s) : 0.0f;
+}
+
+/// Halves all sums: nothing saturates, and old data count less.
+static void halve(jcal_hinge_t *self)
+{
+    jcal_sym_scale(self->moments.gyr, JCAL_HINGE_FEATURES, 0.5f);
+    jcal_sym_scale(self->moments.acc, 7u, 0.5f);
+    jcal_hinge_refine_fade(&self->refine, 0.5f);
+    self->excitation *= 0.5f;
+    self->motion *= 0.5f;
+    self->weight_acc *= 0.5f;
+    self->weight_acc2 *= 0.5f;
+}
+
+/// Residuals of this sample at the refined axes, (24) and (25) of [OLS20], in units of what is usual.
+static void watch_fit(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+{
+    const jcal_vec3_t j1 = self->refine.point.axis1.j;
+    const jcal_vec3_t j2 = self->refine.point.axis2.j;
+    const float rate2 = sample->w1_2 + sample->w2_2;
+    const float motion_s = sample->dt_s * jcal_watch_motion(rate2);
+    const float gyr = jcal_vec3_norm(jcal_vec3_cross(sample->w1, j1)) - jcal_vec3_norm(jcal_vec3_cross(sample->w2, j2));
+    const float acc = jcal_vec3_dot(sample->a1, j1) - jcal_vec3_dot(sample->a2, j2) - self->acc_constant_m_s2;
+    const float noise = self->cfg.gyr_noise_rad_s;
+    jcal_watch_add(&self->watch, 0u, gyr * gyr / ((noise * noise) + (RATE_SHARE2 * rate2)), motion_s);
+    jcal_watch_add(&self->watch, 1u, acc * acc / (WATCH_ACC_SHARE * acc_variance(self)), motion_s);
+}
+
+/// True if the last seconds contradict a calibration that was ready.
+static bool has_slipped(const jcal_hinge_t *self)
+{
+    const float bound = jcal_max(self->verdict.bound1_rad, self->verdict.bound2_rad);
+    return self->watch.on &&
+           jcal_hinge_slip_alarm(&self->refine.slip, SLIP_RAD + jcal_min(bound, self->cfg.max_bound_rad));
+}
+
+/// A sensor has moved: what was learnt of the joint is void.
+static void begin_anew(jcal_hinge_t *self)
+{
+    const uint64_t last_us = self->last_us;
+    clear(self);
+    self->last_us = last_us;
+    self->has_last = true;
+    self->verdict.status = (uint8_t)JCAL_MOVED;
+}
+
+/// Returns true if a block of the refined axes closed.
+static bool sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+{
+    bool closed = false;
+    watch(self, sample);
+    const float noise = self->cfg.gyr_noise_rad_s;
+    const float gyr_weight =
+        (sample->dt_s / JCAL_HINGE_UNIT_S) /
+        (noise * noise * (sample->w1_2 + sample->w2_2 + RATE_EPS) * (1.0f + (self->rest_s * self->rest_s)));
+    float z[JCAL_HINGE_FEATURES];
+    jcal_hinge_features(sample->w1, sample->w2, z);
+    jcal_sym_rank1(self->moments.gyr, JCAL_HINGE_FEATURES, z, gyr_weight);
+    const float y[7] = {sample->a1.x, sample->a1.y, sample->a1.z, -sample->a2.x, -sample->a2.y, -sample->a2.z, 1.0f};
+    jcal_sym_rank1(self->moments.acc, 7u, y, sample->acc_weight);
+    if (self->rest_s >= REST_MAX_S) {
+        jcal_hinge_refine_interrupt(&self->refine);
+    } else if (self->has_point) {
+        closed = jcal_hinge_refine_add(self, sample);
+        watch_fit(self, sample);
+    } else {
+        /* nothing to refine yet */
+    }
+    if ((self->motion > MOTION_MAX) || (self->moments.acc[jcal_sym_at(6u, 6u)] > ACC_WEIGHT_MAX)) {
+        halve(self);
+    }
+    return closed;
+}
+
+/// One slice of the cycle: 2 steps of the estimate, 5 slices of the global check, 1 judgement. Once the starts have
+/// been tried a few times, every other cycle leaves the global check out: what is known changes slowly then.
+static void work(jcal_hinge_t *self)
+{
+    const bool settled = self->search.rounds >= SETTLED_ROUNDS;
+    const bool rests = settled && (self->slice >= SLICES_PER_CYCLE);
+    switch (self->slice % SLICES_PER_CYCLE) {
+    case 0u:
+    case SLICES_PER_CYCLE / 2u:
+        jcal_hinge_track(self);
+        break;
+    case SLICES_PER_CYCLE - 1u:
+        jcal_hinge_judge(self);
+        self->credit_s -= (JUDGE_SLICES - 1.0f) * slice_s(self);
+        break;
+    default:
+        if (!rests) {
+            jcal_hinge_search(self);
+        }
+        break;
+    }
+    self->slice = (uint8_t)((self->slice + 1u) % (2u * SLICES_PER_CYCLE));
+}
+
+void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
+{
+    const float since_s = (float)(pair->t_us - self->last_us) * MICROSECONDS;
+    const bool first = !self->has_last;
+    self->last_us = pair->t_us;
+    self->has_last = true;
+    if (first) {
+        return;
+    }
+    if (since_s > STEP_MAX_S) {
+        jcal_hinge_refine_interrupt(&self->refine);
+    }
+    const float dt_s = jcal_min(since_s, STEP_MAX_S);
+    const jcal_hinge_sample_t sample = weigh(self, pair, dt_s);
+    const bool closed = sum_up(self, &sample);
+    if (self->verdict.status == (uint8_t)JCAL_READY) {
+        jcal_watch_start(&self->watch);
+    }
+    if (jcal_watch_alarm(&self->watch) || (closed && has_slipped(self))) {
+        begin_anew(self);
+        return;
+    }
+    self->credit_s -= closed ? jcal_min(CLOSE_SLICES * slice_s(self), jcal_max(CLOSE_S, dt_s)) : 0.0f;
+    self->credit_s = jcal_min(self->credit_s + dt_s, (float)SLICES_MAX * slice_s(self));
+    for (unsigned i = 0u; i < SLICES_MAX; ++i) {
+        const float price_s = slice_s(self) * ((self->verdict.status == (uint8_t)JCAL_READY) ? PRICE_READY : 1.0f);
+        if (self->credit_s < price_s) {
+            break;
+        }
+        self->credit_s -= price_s;
+        work(self);
+    }
+}
+
+jcal_status_t jcal_hinge_step(jcal_hinge_t *self)
+{
+    jcal_pair_t pair;
+    if (self == NULL) {
+        return JCAL_ERR_ARG;
+    }
+    if (!jcal_inbox_take(&self->inbox, &pair)) {
+        return JCAL_IDLE;
+    }
+    jcal_hinge_consume(self, &pair);
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_hinge_update(jcal_hinge_t *self, const jcal_pair_t *pair)
+{
+    if ((self != NULL) && (pair != NULL) && jcal_inbox_full(&self->inbox)) {
+        (void)jcal_hinge_step(self); /* pushes without steps have filled the inbox: make room */
+    }
+    const jcal_status_t pushed = jcal_hinge_push(self, pair);
+    return (pushed == JCAL_OK) ? jcal_hinge_step(self) : pushed;
+}

@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Multi-start search for the axes of a 2-DoF joint, in slices. See two_dof/search.h.
+#include "two_dof/search.h"
+
+#include "math/scalar.h"
+#include "math/solve.h"
+#include "two_dof/judge.h"
+#include "two_dof/model.h"
+#include "two_dof/prior.h"
+#include "two_dof/starts.h"
+#include "two_dof/stream.h"
+
+/// So many starts are tried before the exchanged axes are once more.
+#define EXCHANGE_EVERY 1u
+
+/// A probe ends after so many steps, or when a step is shorter than this, rad.
+#define PROBE_STEPS 14u
+#define STEP_MIN_RAD 3e-3f
+/// After so many steps a probe is given up, if several times the gain that it promises would leave it this far above the estimate.
+#define HOPELESS_STEPS 3u
+#define HOPE 4.0f
+#define HOPELESS_GAP 100.0f
+/// Longest step, rad: the model is worth nothing further away.
+#define STEP_MAX_RAD 0.5f
+
+/// A step that makes the cost larger by less than this share of it stands: samples that came in meanwhile did it.
+#define HARMLESS_SHARE 0.02f
+
+/// A new minimum must be better than the estimate by this much, in units of the cost's standard deviation.
+#define BETTER 1.0f
+
+/// Turns of the cycle.
+enum { TURN_TRACK = 0, TURN_JUDGE = 1, TURN_FADE = 2, TURN_DRIFT = 3, TURN_RIVAL = 4, TURN_PROBE = 5, TURNS = 9 };
+
+/// First half of a linearisation: the rotation-based form.
+static void first_half(jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
+{
+    jcal_two_dof_form(self->moments.rotation, point, &self->search.lin);
+    self->search.half = true;
+}
+
+/// Second half: the data's cost, in units of what the residuals show, so that it can be compared with the prior.
+static void second_half(jcal_two_dof_t *self, const jcal_two_dof_point_t *point, float *parts)
+{
+    jcal_two_dof_lin_t *const lin = &self->search.lin;
+    jcal_two_dof_combine(&self->moments, self->cfg.constraint, point, lin, parts);
+    const float scale = 1.0f / self->verdict.excess;
+    lin->cost *= scale;
+    for (unsigned i = 0u; i < JCAL_TWO_DOF_UNKNOWNS; ++i) {
+        lin->gradient[i] *= scale;
+    }
+    jcal_sym_scale(lin->matrix, JCAL_TWO_DOF_UNKNOWNS, scale);
+    self->search.half = false;
+}
+
+static void begin(jcal_two_dof_probe_t *probe, const jcal_two_dof_point_t *point)
+{
+    probe->point = *point;
+    probe->from = *point;
+    probe->predicted = 0.0f;
+    probe->from_cost = 0.0f;
+    probe->damping = JCAL_GN_DAMPING_START;
+    probe->steps = 0u;
+}
+
+/// Makes a step from probe->point, where the cost is `lin`, prior included. Returns its length, rad.
+static float make_step(jcal_two_dof_probe_t *probe, jcal_gn_t *gn, const jcal_two_dof_lin_t *lin, float *d)
+{
+    const jcal_gn_model_t model = {JCAL_TWO_DOF_UNKNOWNS, lin->gradient, lin->matrix};
+    probe->from = probe->point;
+    probe->predicted = 0.0f;
+    for (unsigned i = 0u; i < JCAL_TWO_DOF_UNKNOWNS; ++i) {
+        d[i] = 0.0f;
+    }
+    if (jcal_gn_step(gn, &model, d, &probe->predicted) != JCAL_OK) {
+        return STEP_MAX_RAD;
+    }
+    const float length = jcal_gn_length(d, JCAL_TWO_DOF_UNKNOWNS);
+    if (length > STEP_MAX_RAD) {
+        for (unsigned i = 0u; i < JCAL_TWO_DOF_UNKNOWNS; ++i) {
+            d[i] *= STEP_MAX_RAD / length;
+        }
+        probe->predicted = jcal_gn_predict(&model, d);
+    }
+    jcal_two_dof_point_move(&probe->point, d);
+    return length;
+}
+
+/// Judges the probe's last step and makes the next one. Samples came in meanwhile: costs are compared per second of motion.
+static float advance(jcal_two_dof_t *self)
+{
+    jcal_two_dof_probe_t *const probe = &self->search.probe;
+    const jcal_two_dof_lin_t *const lin = &self->search.lin;
+    jcal_gn_t gn = {probe->damping};
+    const float change = 0.5f * (lin->cost - (probe->from_cost * self->moving_s));
+    if ((probe->steps > 0u) && (probe->predicted < 0.0f)) {
+        const bool kept = jcal_gn_judge(&gn, probe->predicted, change);
+        if (!kept && (change > (HARMLESS_SHARE * lin->cost))) {
+            probe->damping = gn.damping;
+            probe->point = probe->from;
+            probe->predicted = 0.0f;
+            return STEP_MAX_RAD;
+        }
+        probe->damping = kept ? gn.damping : probe->damping;
+    }
+    gn.damping = probe->damping;
+    float d[JCAL_TWO_DOF_UNKNOWNS];
+    const float length = make_step(probe, &gn, lin, d);
+    probe->damping = gn.damping;
+    probe->from_cost = lin->cost / self->moving_s;
+    return length;
+}
+
+/// Costs of the estimate and of the rival, prior included, at the same time.
+static float cost_at(const jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
+{
+    jcal_two_dof_guess_t guess = {point->heading, 0.0f};
+    jcal_two_dof_costs(&self->moments, self->cfg.constraint, point, &guess, 1u);
+    return (guess.cost / self->verdict.excess) + jcal_two_dof_prior_cost(&self->prior, point);
+}
+
+static void begin_probe(jcal_two_dof_t *self)
+{
+    jcal_two_dof_search_t *const search = &self->search;
+    if (self->has_best && (search->since_exchange >= EXCHANGE_EVERY)) {
+        search->since_exchange = 0u;
+        search->exchanges = (uint8_t)((search->exchanges < UINT8_MAX) ? (search->exchanges + 1u) : UINT8_MAX);
+        const jcal_orientation_pair_t *const pair = &self->ring[(self->taken - 1u) % JCAL_TWO_DOF_RING];
+        const jcal_two_dof_point_t other = jcal_two_dof_exchanged(&self->best.point, pair->q1, pair->q2);
+        begin(&search->probe, &other);
+        search->probing = true;
+        return;
+    }
+    search->since_exchange = (uint8_t)(search->since_exchange + 1u);
+    jcal_two_dof_guess_t guesses[JCAL_TWO_DOF_HEADINGS];
+    float costs[JCAL_TWO_DOF_HEADINGS];
+    for (unsigned i = 0u; i < JCAL_TWO_DOF_HEADINGS; ++i) {
+        guesses[i].heading = jcal_two_dof_start_headings()[i];
+    }
+    jcal_two_dof_point_t point = jcal_two_dof_start(search->start);
+    jcal_two_dof_costs(&self->moments, self->cfg.constraint, &point, guesses, JCAL_TWO_DOF_HEADINGS);
+    for (unsigned i = 0u; i < JCAL_TWO_DOF_HEADINGS; ++i) {
+        costs[i] = guesses[i].cost;
+    }
+    point.heading = guesses[jcal_two_dof_least(costs)].heading;
+    begin(&search->probe, &point);
+    search->start = jcal_two_dof_start_after(search->start);
+    search->probing = true;
+}
+
+/// Makes a point the estimate. If the one before it was ready, the joint is another one now.
+static void adopt(jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
+{
+    if (self->watch.on) {
+        jcal_two_dof_begin_anew(self, JCAL_MOVED);
+        return;
+    }
+    begin(&self->best, point);
+    self->has_best = true;
+    self->heading_then = (jcal_plane_t){0.0f, 0.0f};
+    self->drift_rad_s = 0.0f;
+    self->search.agreed = 0u;
+    self->search.exchanges = 0u;
+    if (self->verdict.status != (uint8_t)JCAL_MOVED) {
+        self->verdict.status = (uint8_t)JCAL_COLLECTING;
+    }
+    self->verdict.reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+}
+
+/// Files what a finished probe found: the estimate itself, a better minimum or a rival. Its cost is that of its last linearisation
+/// and what its last step promised.
+static void file_probe(jcal_two_dof_t *self)
+{
+    jcal_two_dof_search_t *const search = &self->search;
+    const jcal_two_dof_point_t *const point = &search->probe.point;
+    const float cost = search->lin.cost + (2.0f * search->probe.predicted);
+    search->tried = (uint8_t)((search->tried < UINT8_MAX) ? (search->tried + 1u) : UINT8_MAX);
+    search->probing = false;
+    if (!self->has_best) {
+        adopt(self, point);
+        search->cost = cost;
+        return;
+    }
+    const bool better = cost < (search->cost - BETTER);
+    if (jcal_two_dof_is_near(&self->best.point, point, JCAL_TWO_DOF_SAME_COSINE)) {
+        if (better) {
+            jcal_two_dof_point_t aligned = *point; /* the senses stay: the mean of the sine goes with them */
+            aligned.j1 = jcal_two_dof_in_sense_of(point->j1, self->best.point.j1);
+            aligned.j2 = jcal_two_dof_in_sense_of(point->j2, self->best.point.j2);
+            begin(&self->best, &aligned);
+        }
+    } else if (better) {
+        const jcal_two_dof_point_t rival = self->best.point;
+        const float rival_cost = search->cost;
+        adopt(self, point);
+        search->rival = rival;
+        search->rival_cost = rival_cost;
+        search->has_rival = self->has_best;
+        search->cost = cost;
+    } else if (!search->has_rival || (cost < search->rival_cost)) {
+        search->rival = *point;
+        search->rival_cost = cost;
+        search->has_rival = true;
+    } else {
+        /* neither the best nor the second */
+    }
+}
+
+/// True if the next steps would have to gain several times what the last one promised to come near the estimate's cost.
+static bool is_hopeless(const jcal_two_dof_t *self)
+{
+    const jcal_two_dof_search_t *const search = &self->search;
+    const float hoped = search->lin.cost + (HOPE * 2.0f * search->probe.predicted);
+    return self->has_best && (search->probe.steps >= HOPELESS_STEPS) && (hoped > (search->cost + HOPELESS_GAP));
+}
+
+static void probe(jcal_two_dof_t *self)
+{
+    jcal_two_dof_search_t *const search = &self->search;
+    jcal_two_dof_point_t *const point = &search->probe.point;
+    if (!search->probing) {
+        begin_probe(self);
+    } else if (!search->half) {
+        first_half(self, point);
+        return;
+    } else {
+        second_half(self, point, NULL);
+        jcal_two_dof_prior_apply(&self->prior, point, &search->lin, &search->lin);
+        const float length = advance(self);
+        search->probe.steps = (uint8_t)(search->probe.steps + 1u);
+        const bool ended = (length < STEP_MIN_RAD) || (search->probe.steps >= PROBE_STEPS) || is_hopeless(self);
+        if (ended || (self->has_best && jcal_two_dof_is_near(&self->best.point, point, JCAL_TWO_DOF_JOINED_COSINE))) {
+            file_probe(self);
+        }
+    }
+    search->turn = (uint8_t)((search->turn + 1u) % TURNS);
+}
+
+static void track(jcal_two_dof_t *self)
+{
+    jcal_two_dof_search_t *const search = &self->search;
+    if (!search->half) {
+        first_half(self, &self->best.point);
+        return;
+    }
+    second_half(self, &self->best.point, search->parts);
+    jcal_two_dof_lin_t all;
+    jcal_two_dof_prior_apply(&self->prior, &self->best.point, &search->lin, &all);
+    jcal_gn_t gn = jcal_gn_begin();
+    float d[JCAL_TWO_DOF_UNKNOWNS];
+    (void)make_step(&self->best, &gn, &all, d);
+    float on[JCAL_TWO_DOF_UNKNOWNS];
+    jcal_sym_times(search->lin.matrix, JCAL_TWO_DOF_UNKNOWNS, d, on);
+    for (unsigned i = 0u; i < JCAL_TWO_DOF_UNKNOWNS; ++i) {
+        search->lin.gradient[i] += on[i]; /* to first order that at the new place */
+    }
+    search->cost = all.cost;
+    search->turn = TURN_JUDGE;
+}
+
+void jcal_two_dof_work(jcal_two_dof_t *self)
+{
+    jcal_two_dof_search_t *const search = &self->search;
+    if (!(self->moving_s > 0.0f)) {
+        return;
+    }
+    if (!self->has_best && (search->turn < TURN_PROBE)) {
+        search->turn = TURN_PROBE;
+    }
+    switch (search->turn) {
+    case TURN_TRACK:
+        track(self);
+        break;
+    case TURN_JUDGE:
+        jcal_two_dof_judge(self);
+        search->turn = jcal_two_dof_fade_is_due(self) ? TURN_FADE : TURN_RIVAL;
+        break;
+    case TURN_FADE:
+        jcal_two_dof_fade_now(self);
+        search->turn = TURN_DRIFT;
+        break;
+    case TURN_DRIFT:
+        jcal_two_dof_follow_drift(self);
+        search->turn = TURN_RIVAL;
+        break;
+    case TURN_RIVAL:
+        if (search->has_rival) {
+            search->rival_cost = cost_at(self, &search->rival);
+            search->has_rival = !jcal_two_dof_is_near(&self->best.point, &search->rival, JCAL_TWO_DOF_SAME_COSINE);
+        }
+        search->turn = TURN_PROBE;
+        break;
+    default:
+        probe(self);
+        break;
+    }
+}
