@@ -17,6 +17,7 @@
 #define JCAL_CENTER_WINDOW_H
 
 #include "jointcal/center.h"
+#include "jointcal/private/center/window.h"
 
 #include <stddef.h>
 
@@ -26,34 +27,6 @@ extern "C" {
 
 /// Bytes of storage for n_max; usable in array sizes: 60 KB for 500.
 #define JCAL_CENTER_WINDOW_STORAGE_BYTES(n_max) ((size_t)(n_max) * sizeof(jcal_kinematic_t))
-
-/// Settings of the window engine. Start from jcal_center_window_config_default().
-typedef struct {
-    jcal_center_config_t center;  ///< What both engines share.
-    uint16_t n_max;               ///< Samples in the window. Range [50, 20000], default 500, as in [OLS17].
-} jcal_center_window_config_t;
-
-/// The window engine. Caller-owned; all members are private.
-///
-/// It may be copied together with its storage; jcal_center_window_attach() then tells the copy where its storage is.
-typedef struct {
-    jcal_center_window_config_t cfg;
-    void *storage;
-    jcal_center_input_t input;
-    jcal_center_work_t work;
-    jcal_watch_t watch;
-    uint64_t t_us;      ///< Time of the newest sample.
-    uint32_t next;      ///< Where the next sample goes.
-    uint32_t count;     ///< Samples in the window.
-    uint32_t unjudged;  ///< Samples since the last judgement.
-    bool has_point;
-} jcal_center_window_t;
-
-/// The defaults described at each field.
-jcal_center_window_config_t jcal_center_window_config_default(void);
-
-/// Name of the first field that is out of its range, or null if the config is valid.
-const char *jcal_center_window_config_check(const jcal_center_window_config_t *config);
 
 /// Bytes of storage that a config needs: JCAL_CENTER_WINDOW_STORAGE_BYTES of its field.
 size_t jcal_center_window_storage_bytes(const jcal_center_window_config_t *config);

@@ -7,28 +7,14 @@
 #ifndef JCAL_GATE_H
 #define JCAL_GATE_H
 
+#include "jointcal/private/gate.h"
+#include "jointcal/reject.h"
 #include "jointcal/status.h"
 #include "jointcal/types.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/// Why a sample was not used; one cause counts: not finite, else time, else the first of the others. Also the index of its counter.
-///
-/// Time that does not increase is never believed again: after a wild time stamp far in the future, or a clock that starts
-/// anew, every sample is rejected (and the status says `bad_samples`) until the caller resets.
-typedef enum {
-    JCAL_REJECT_NOT_FINITE = 0,    ///< A value is NaN or infinite.
-    JCAL_REJECT_OUT_OF_RANGE = 1,  ///< Beyond what a sensor can read, or wrong units.
-    JCAL_REJECT_SATURATED = 2,     ///< A component stands at its extreme: clipped.
-    JCAL_REJECT_FROZEN = 3,        ///< A sensor has repeated itself for longer than `frozen_s`.
-    JCAL_REJECT_REPEATED = 4,      ///< A sensor repeats its previous reading: a lost packet.
-    JCAL_REJECT_TIME_ORDER = 5,    ///< Time did not increase.
-    JCAL_REJECT_GAP = 6,           ///< First sample after a hole in time.
-    JCAL_REJECT_COUNT = 7,         ///< Number of causes.
-    JCAL_REJECT_NONE = 7           ///< The sample was accepted.
-} jcal_reject_t;
 
 /// Limits of the gate.
 typedef struct {
@@ -40,28 +26,6 @@ typedef struct {
     /// Longest distance of two samples that still counts as continuous, s. Range [0.02, 10], default 0.25.
     float gap_s;
 } jcal_gate_config_t;
-
-/// Private: what the gate remembers of one sensor.
-typedef struct {
-    float last[6];        ///< Previous reading: rate, specific force.
-    float extreme[6];     ///< Largest magnitude of each component so far.
-    float gravity_m_s2;   ///< Magnitude of the specific force, averaged over about 1 s.
-    float turn_measured;  ///< Leaky sum of |da|^2, the change of the specific force from sample to sample.
-    float turn_expected;  ///< Leaky sum of |a x w dt|^2, the change that the rate alone would make.
-    float repeated_s;     ///< How long the reading has stood still.
-} jcal_gate_sensor_t;
-
-/// The gate. Caller-owned, plain, copyable; all members are private.
-typedef struct {
-    jcal_gate_sensor_t sensor1;
-    jcal_gate_sensor_t sensor2;
-    uint64_t last_us;
-    uint32_t samples;
-    uint32_t rejected_by[JCAL_REJECT_COUNT];
-    float bad_share;        ///< Share of frozen and out-of-range samples, averaged over about 2 s of samples.
-    float saturated_share;  ///< Share of saturated samples, averaged over about 10 s of samples.
-    bool has_last;
-} jcal_gate_t;
 
 /// The defaults described at each field.
 jcal_gate_config_t jcal_gate_config_default(void);
@@ -80,9 +44,6 @@ jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *confi
 
 /// What is wrong with the stream as a whole: JCAL_REASON_NONE, _WRONG_UNITS_GYR, _WRONG_UNITS_ACC or _BAD_SAMPLES.
 jcal_reason_t jcal_gate_complaint(const jcal_gate_t *self);
-
-/// Name as used in `rejected_by`: `not_finite`, `out_of_range`, ...; `accepted` for JCAL_REJECT_NONE; never null.
-const char *jcal_reject_string(jcal_reject_t reject);
 
 #ifdef __cplusplus
 }

@@ -16,10 +16,8 @@
 #ifndef JCAL_HINGE_WINDOW_H
 #define JCAL_HINGE_WINDOW_H
 
-#include "jointcal/gate.h"
 #include "jointcal/hinge.h"
-#include "jointcal/inbox.h"
-#include "jointcal/select.h"
+#include "jointcal/private/hinge/window.h"
 
 #include <stddef.h>
 
@@ -38,87 +36,6 @@ extern "C" {
 #define JCAL_HINGE_WINDOW_STORAGE_BYTES(n_max, half_window)                                                            \
     (((2u * (size_t)(half_window) + 1u) * sizeof(jcal_score_slot_t)) +                                                 \
      ((2u * (size_t)(n_max) + 1u) * sizeof(jcal_row_t)))
-
-/// Settings of the window engine. Start from jcal_hinge_window_config_default().
-typedef struct {
-    /// What both engines share.
-    jcal_hinge_config_t hinge;
-    /// Samples kept per sensor kind. Range [20, 10000], default 500. [OLS20] 7.3 tried 125 to 1000.
-    uint16_t n_max;
-    /// n of (44) and (45): windows of 2n + 1 samples. Range [0, 100], default 21: 43 samples, as the paper's text says.
-    /// Its "0.42 s" and its public code mean 21 samples in all: 10. Larger is more cautious about outliers and
-    /// transitions, and needs longer calm for the accelerometers.
-    uint16_t half_window;
-    /// Weight ratio of (70). Range [1e-3, 1e10], default 50. Larger trusts the gyroscopes more.
-    float w0;
-    /// E_th of Algorithm 3. Range (0, 1e4], default 1. Larger admits faster motion.
-    float energy_max_rad2_s2;
-    /// Accelerometer samples kept whatever E_th says. Range [0, 10000], default 250; at most n_max of them count.
-    /// 0 is the paper's: on lively motion few or none are left, and the sign pairing is a guess.
-    uint16_t acc_min;
-    /// E_max of Algorithm 4. Range [0.001, 0.5], default 3 deg.
-    float accept_bound_rad;
-    /// n_min of Algorithm 4. Range [1, 100], default 10.
-    uint16_t accept_count;
-    /// Seconds of sample time between full solves. Range [0.1, 60], default 1.
-    float solve_period_s;
-    /// Seed of the random starts, any value; default 2020. Equal seeds and samples give equal results.
-    uint32_t seed;
-} jcal_hinge_window_config_t;
-
-/// Both axes. j[0] in sensor frame 1, j[1] in sensor frame 2; unit.
-typedef struct {
-    jcal_vec3_t j[2];
-} jcal_hinge_axes_t;
-
-/// Private: a full solve on its way.
-typedef struct {
-    uint8_t phase;       ///< See lib/hinge/window_solve.c.
-    uint8_t iterations;  ///< Done in this phase.
-    float damping;
-    uint32_t random;          ///< State of the generator of starts.
-    jcal_hinge_axes_t at;     ///< The estimate of this phase.
-    jcal_hinge_axes_t first;  ///< The result from the start, before its other pairing was tried.
-} jcal_hinge_solve_t;
-
-/// Private: Algorithm 4.
-typedef struct {
-    jcal_hinge_axes_t previous;  ///< The last estimate, with the sign of (66).
-    bool has_previous;
-    bool accepted;
-    uint16_t agreeing;   ///< Consecutive estimates with SEQAD below E_max; stops at n_min.
-    float seqad_rad;     ///< (67) of the last estimate.
-    float local_rad[2];  ///< mu + 2 sigma of the last estimate; pi/2 if unknown.
-} jcal_hinge_accept_t;
-
-/// The window engine. Caller-owned; all members are private.
-///
-/// It may be copied together with its storage; jcal_hinge_window_attach() then tells the copy where its storage is.
-typedef struct {
-    jcal_hinge_window_config_t cfg;
-    void *storage;
-    jcal_score_t score;
-    jcal_select_gyr_t gyr;
-    jcal_select_acc_t acc;
-    jcal_hinge_axes_t axes;  ///< The estimate, followed from sample to sample; its sign is free.
-    float damping;
-    float sign_margin;
-    jcal_hinge_solve_t solve;
-    jcal_hinge_accept_t accept;
-    bool has_axes;
-    bool has_stepped;
-    uint64_t stepped_us;  ///< Time of the last sample that step worked off.
-    uint64_t solve_due_us;
-    /// A stream engine over the same samples: its bounds, its readiness; gate and inbox serve both.
-    jcal_hinge_t guard;
-    uint32_t inbox_ids[JCAL_INBOX_CAPACITY];  ///< Number of each pair in the inbox.
-} jcal_hinge_window_t;
-
-/// The defaults described at each field.
-jcal_hinge_window_config_t jcal_hinge_window_config_default(void);
-
-/// Name of the first field that is out of its range, or null if the config is valid.
-const char *jcal_hinge_window_config_check(const jcal_hinge_window_config_t *config);
 
 /// Bytes of storage that a config needs: JCAL_HINGE_WINDOW_STORAGE_BYTES of its fields.
 size_t jcal_hinge_window_storage_bytes(const jcal_hinge_window_config_t *config);

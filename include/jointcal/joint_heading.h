@@ -8,31 +8,12 @@
 #define JCAL_JOINT_HEADING_H
 
 #include "jointcal/orientation.h"
+#include "jointcal/private/heading.h"
 #include "jointcal/status.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/// A heading offset.
-typedef struct {
-    float heading_rad;  ///< delta, in [-pi, pi]; 0 while it is not known.
-    bool known;         ///< The data of this moment tell it, or data before did and none since tell otherwise.
-} jcal_heading_t;
-
-/// Follows the heading offset with known axes. Caller-owned, plain, copyable; all members are private.
-typedef struct {
-    jcal_vec3_t axis1, axis2;  ///< Unit axes in sensor frames 1 and 2.
-    float sin_carrying;
-    float memory_s;
-    bool hinge;
-    bool has_time;
-    uint64_t t_us;  ///< Time of the last pair.
-    float weight;   ///< Fading sum of time, s.
-    float sums
-        [6];  ///< Fading sums: products of (G_c, G_s, G_1), upper triangle row by row; of a hinge the first two only.
-    jcal_heading_t last;
-} jcal_joint_heading_t;
 
 /// Follows a hinge: both axes are the same line, j1 = Rz(delta) j2 in earth frame 1.
 ///

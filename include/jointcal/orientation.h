@@ -8,31 +8,12 @@
 #define JCAL_ORIENTATION_H
 
 #include "jointcal/gate.h"
+#include "jointcal/private/orientation.h"
 #include "jointcal/types.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/// Simultaneous orientations of the two IMUs of a joint: 1 on the proximal segment, 2 on the distal one.
-typedef struct {
-    uint64_t t_us;   ///< Time in microseconds, any origin, strictly increasing.
-    jcal_quat_t q1;  ///< Sensor 1 to its earth frame E1.
-    jcal_quat_t q2;  ///< Sensor 2 to its earth frame E2.
-} jcal_orientation_pair_t;
-
-/// Checks orientations as jcal_gate_t checks readings, with the same causes and counters; nothing is ever `saturated`.
-/// Caller-owned, plain, copyable; all members are private.
-typedef struct {
-    jcal_orientation_pair_t last;
-    float still1_s;  ///< How long q1 has not changed by a bit.
-    float still2_s;
-    uint32_t samples;
-    uint32_t rejected_by[JCAL_REJECT_COUNT];
-    float
-        bad_share;  ///< Share of samples that are out of range, frozen or repeated, averaged over about 2 s of samples.
-    bool has_last;
-} jcal_orientation_gate_t;
 
 /// Checks a pair, remembers it and counts the outcome.
 ///

@@ -16,6 +16,7 @@
 #ifndef JCAL_TWO_DOF_WINDOW_H
 #define JCAL_TWO_DOF_WINDOW_H
 
+#include "jointcal/private/two_dof/window.h"
 #include "jointcal/two_dof.h"
 
 #include <stddef.h>
@@ -24,72 +25,8 @@
 extern "C" {
 #endif
 
-/// A kept sample.
-typedef struct {
-    uint64_t t_us;
-    jcal_quat_t q1, q2;  ///< Sensor to its earth frame.
-    jcal_vec3_t w1, w2;  ///< rad/s, in E1 and in E2.
-    float dt_s;          ///< The time it stands for.
-} jcal_two_dof_row_t;
-
 /// Bytes of storage for n_max; usable in array sizes: 14.4 KB for 200.
 #define JCAL_TWO_DOF_WINDOW_STORAGE_BYTES(n_max) ((size_t)(n_max) * sizeof(jcal_two_dof_row_t))
-
-/// Settings of the window engine. Start from jcal_two_dof_window_config_default().
-typedef struct {
-    /// What both engines share. Here `constraint` is JCAL_CONSTRAINT_ROTATION (default) or JCAL_CONSTRAINT_ORIENTATION; memory_s
-    /// has no meaning.
-    jcal_two_dof_config_t two_dof;
-    /// M: samples kept. Range [20, 10000], default 200: 10 s. With less than 2 s of motion in the buffer the status is never `ready`.
-    uint16_t n_max;
-} jcal_two_dof_window_config_t;
-
-/// Private: a place in the parameter space that is followed.
-typedef struct {
-    jcal_two_dof_point_t point;
-    jcal_two_dof_point_t from;  ///< The point before the last step.
-    float sine;                 ///< sin(beta0), the sixth parameter.
-    float from_sine;
-    float from_cost;  ///< Mean squared residual there.
-    float predicted;  ///< Change of cost that was promised for the step.
-    float damping;
-    float cost;  ///< Residuals, squared, over their variance, before the last step.
-    uint8_t steps;
-} jcal_two_dof_trace_t;
-
-/// Private: where the search stands.
-typedef struct {
-    jcal_two_dof_trace_t best, rival, probe;
-    uint8_t turn;
-    uint8_t start;      ///< Next start.
-    uint8_t tried;      ///< Probes that ended.
-    uint8_t exchanges;  ///< How often the exchanged axes of this estimate were a start.
-    uint8_t agreed;     ///< Judgements in a row that found nothing missing.
-    bool has_best, has_rival, probing;
-    bool exchange;  ///< The next start is the exchanged axes.
-} jcal_two_dof_window_search_t;
-
-/// The window engine. Caller-owned; all members are private.
-///
-/// It may be copied together with its storage; jcal_two_dof_window_attach() then tells the copy where its storage is.
-typedef struct {
-    jcal_two_dof_window_config_t cfg;
-    void *storage;
-    jcal_orientation_gate_t gate;
-    jcal_orientation_pair_t ring[JCAL_TWO_DOF_RING];
-    volatile uint32_t written;  ///< Orientations ever put in; written by push only.
-    volatile uint32_t taken;    ///< Orientations ever taken out; written by step only.
-    uint16_t count;             ///< Rows in the storage.
-    uint16_t next;              ///< Where the next one goes.
-    jcal_two_dof_window_search_t search;
-    jcal_two_dof_verdict_t verdict;
-} jcal_two_dof_window_t;
-
-/// The defaults described at each field.
-jcal_two_dof_window_config_t jcal_two_dof_window_config_default(void);
-
-/// Name of the first field that is out of its range, or null if the config is valid.
-const char *jcal_two_dof_window_config_check(const jcal_two_dof_window_config_t *config);
 
 /// Bytes of storage that a config needs: JCAL_TWO_DOF_WINDOW_STORAGE_BYTES of its n_max.
 size_t jcal_two_dof_window_storage_bytes(const jcal_two_dof_window_config_t *config);

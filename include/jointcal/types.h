@@ -39,6 +39,24 @@ typedef struct {
     jcal_imu_t imu2;
 } jcal_pair_t;
 
+/// Simultaneous orientations of the two IMUs of a joint: 1 on the proximal segment, 2 on the distal one.
+typedef struct {
+    uint64_t t_us;   ///< Time in microseconds, any origin, strictly increasing.
+    jcal_quat_t q1;  ///< Sensor 1 to its earth frame E1.
+    jcal_quat_t q2;  ///< Sensor 2 to its earth frame E2.
+} jcal_orientation_pair_t;
+
+/// Orientations of the two IMUs of a joint, each to its own earth frame; all zero if there are none.
+typedef struct {
+    jcal_quat_t q1, q2;
+} jcal_attitudes_t;
+
+/// A heading offset.
+typedef struct {
+    float heading_rad;  ///< delta, in [-pi, pi]; 0 while it is not known.
+    bool known;         ///< The data of this moment tell it, or data before did and none since tell otherwise.
+} jcal_heading_t;
+
 #ifdef __cplusplus
 }
 #endif

@@ -4,7 +4,8 @@
 #ifndef JCAL_CENTER_INPUT_H
 #define JCAL_CENTER_INPUT_H
 
-#include "jointcal/center.h"
+#include "jointcal/center_config.h"
+#include "jointcal/private/center/input.h"
 #include "sample/kinematics.h"
 
 /// Forgets everything.

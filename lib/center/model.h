@@ -11,7 +11,7 @@
 #ifndef JCAL_CENTER_MODEL_H
 #define JCAL_CENTER_MODEL_H
 
-#include "jointcal/center.h"
+#include "jointcal/private/center/point.h"
 #include "sample/kinematics.h"
 
 #include <stddef.h>

@@ -9,6 +9,8 @@
 #define JCAL_CENTER_SUMS_H
 
 #include "center/model.h"
+#include "jointcal/center_config.h"
+#include "jointcal/private/center/sums.h"
 
 /// Residuals of this time are taken to agree by chance, s: one reading. 0.1, or half of what is smoothed over.
 float jcal_center_reading_s(const jcal_center_config_t *cfg);

@@ -11,7 +11,9 @@
 #ifndef JCAL_HINGE_MODEL_H
 #define JCAL_HINGE_MODEL_H
 
-#include "jointcal/hinge.h"
+#include "jointcal/hinge_config.h"
+#include "jointcal/private/hinge/moments.h"
+#include "jointcal/private/hinge/point.h"
 
 /// Unknowns of the linearised problem: 2 tangent coordinates per axis, rad.
 #define JCAL_HINGE_TILTS 4u

@@ -7,7 +7,8 @@
 #ifndef JCAL_HINGE_POINT_H
 #define JCAL_HINGE_POINT_H
 
-#include "jointcal/hinge.h"
+#include "jointcal/hinge_config.h"
+#include "jointcal/private/hinge/point.h"
 #include "jointcal/vec3.h"
 
 /// Second tangent direction.

@@ -9,7 +9,9 @@
 #ifndef JCAL_HINGE_SLIP_H
 #define JCAL_HINGE_SLIP_H
 
-#include "jointcal/hinge.h"
+#include "jointcal/private/hinge/slip.h"
+
+#include <stdbool.h>
 
 /// Makes room for a block of this duration, s.
 void jcal_hinge_slip_fade(jcal_hinge_slip_t *self, float time_s);

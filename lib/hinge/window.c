@@ -12,6 +12,7 @@
 #include "math/scalar.h"
 #include "math/sphere.h"
 #include "sample/inbox.h"
+#include "sample/select.h"
 
 static const float us_per_s = 1e6f;
 

@@ -6,7 +6,7 @@
 #ifndef JCAL_WATCH_PRIVATE_H
 #define JCAL_WATCH_PRIVATE_H
 
-#include "jointcal/watch.h"
+#include "jointcal/private/watch.h"
 #include "math/scalar.h"
 
 /// Time constants, s of motion.

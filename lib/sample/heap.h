@@ -4,7 +4,7 @@
 #ifndef JCAL_HEAP_H
 #define JCAL_HEAP_H
 
-#include "jointcal/select.h"
+#include "sample/select.h"
 
 #include <stddef.h>
 

@@ -8,7 +8,7 @@
 #ifndef JCAL_INBOX_PRIVATE_H
 #define JCAL_INBOX_PRIVATE_H
 
-#include "jointcal/inbox.h"
+#include "jointcal/private/inbox.h"
 
 /// Room for one more pair?
 static inline bool jcal_inbox_full(const jcal_inbox_t *self)

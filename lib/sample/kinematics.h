@@ -12,6 +12,7 @@
 #define JCAL_KINEMATICS_PRIVATE_H
 
 #include "jointcal/kinematics.h"
+#include "jointcal/private/kinematics.h"
 #include "jointcal/quat.h"
 #include "jointcal/vec3.h"
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Scores of [OLS20] (42)-(46) by rounds of 2n + 1 samples (the two-part window of van Herk, Gil and Werman).
-#include "jointcal/select.h"
+#include "sample/select.h"
 
 #include "jointcal/vec3.h"
 

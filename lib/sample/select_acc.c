@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Algorithm 3 of [OLS20]: slow rows that do not repeat what the others say. The rows are a heap by their penalty.
-#include "jointcal/select.h"
+#include "sample/select.h"
 
 #include "math/eig.h"
 #include "math/sym.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Algorithm 2 of [OLS20]: both ends of the ranking, each a heap with its innermost row at the root.
-#include "jointcal/select.h"
+#include "sample/select.h"
 
 #include "sample/heap.h"
 

@@ -23,6 +23,8 @@
 #ifndef JCAL_TWO_DOF_MODEL_H
 #define JCAL_TWO_DOF_MODEL_H
 
+#include "jointcal/private/two_dof/moments.h"
+#include "jointcal/two_dof_config.h"
 #include "two_dof/point.h"
 
 /// One sample: orientations, and rates in the earth frames.

@@ -4,7 +4,7 @@
 #ifndef JCAL_TWO_DOF_POINT_H
 #define JCAL_TWO_DOF_POINT_H
 
-#include "jointcal/two_dof.h"
+#include "jointcal/private/two_dof/point.h"
 #include "math/plane.h"
 #include "math/sphere.h"
 

@@ -8,6 +8,8 @@
 #ifndef JCAL_TWO_DOF_PRIOR_H
 #define JCAL_TWO_DOF_PRIOR_H
 
+#include "jointcal/private/two_dof/moments.h"
+#include "jointcal/private/two_dof/prior.h"
 #include "two_dof/point.h"
 
 /// all <- lin + the prior's cost, gradient and matrix at `point`; `all` may be `lin`.

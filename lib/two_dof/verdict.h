@@ -4,6 +4,7 @@
 #ifndef JCAL_TWO_DOF_VERDICT_H
 #define JCAL_TWO_DOF_VERDICT_H
 
+#include "jointcal/two_dof.h"
 #include "two_dof/point.h"
 
 /// What a judgement rests on.

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Tests of jointcal/select.h: scores and Algorithm 2 against brute force over all samples so far; the heap.
-#include "jointcal/select.h"
+#include "sample/select.h"
 
 #include "sample/heap.h"
 #include "unity.h"

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Tests of jointcal/select.h: Algorithm 3 against brute force.
-#include "jointcal/select.h"
+#include "sample/select.h"
 
 #include "math/eig.h"
 #include "math/sym.h"

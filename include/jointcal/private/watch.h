@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Layout of what notices that a sensor has moved. Nothing here is for the user to touch.
-#ifndef JCAL_WATCH_H
-#define JCAL_WATCH_H
+#ifndef JCAL_PRIVATE_WATCH_H
+#define JCAL_PRIVATE_WATCH_H
 
 #include <stdbool.h>
 
@@ -10,7 +10,7 @@
 extern "C" {
 #endif
 
-/// Private: residuals of two kinds, squared, in units of what the config takes for usual.
+/// Residuals of two kinds, squared, in units of what the config takes for usual.
 typedef struct {
     float recent[2];  ///< Mean over the last 1.5 s of motion.
     float usual[2];   ///< Mean over the last 20 s of motion since the calibration was ready.
@@ -22,4 +22,4 @@ typedef struct {
 }
 #endif
 
-#endif /* JCAL_WATCH_H */
+#endif /* JCAL_PRIVATE_WATCH_H */

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Layout of the queue between push and step. Nothing here is for the user to touch.
-#ifndef JCAL_INBOX_H
-#define JCAL_INBOX_H
+#ifndef JCAL_PRIVATE_INBOX_H
+#define JCAL_PRIVATE_INBOX_H
 
 #include "jointcal/types.h"
 
@@ -13,7 +13,7 @@ extern "C" {
 /// Pairs that may wait between two calls of step; a power of two.
 #define JCAL_INBOX_CAPACITY 4u
 
-/// Private: pairs that wait for step.
+/// Pairs that wait for step.
 typedef struct {
     jcal_pair_t slots[JCAL_INBOX_CAPACITY];
     volatile uint32_t written;  ///< Pairs ever put in; written by push only.
@@ -24,4 +24,4 @@ typedef struct {
 }
 #endif
 
-#endif /* JCAL_INBOX_H */
+#endif /* JCAL_PRIVATE_INBOX_H */

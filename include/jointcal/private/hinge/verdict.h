@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// The last judgement.
+#ifndef JCAL_PRIVATE_HINGE_VERDICT_H
+#define JCAL_PRIVATE_HINGE_VERDICT_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// The last judgement.
+typedef struct {
+    float bound1_rad;
+    float bound2_rad;
+    float sign_margin;
+    float sign_progress;
+    uint8_t status, weak, hint, reason;  ///< As in jcal_hinge_result_t.
+} jcal_hinge_verdict_t;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* JCAL_PRIVATE_HINGE_VERDICT_H */

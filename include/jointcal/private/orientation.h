@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// State of the gate for orientations. Nothing here is for the user to touch.
+#ifndef JCAL_PRIVATE_ORIENTATION_H
+#define JCAL_PRIVATE_ORIENTATION_H
+
+#include "jointcal/reject.h"
+#include "jointcal/types.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Checks orientations as jcal_gate_t checks readings, with the same causes and counters; nothing is ever `saturated`.
+/// Caller-owned, plain, copyable; all members are private.
+typedef struct {
+    jcal_orientation_pair_t last;
+    float still1_s;  ///< How long q1 has not changed by a bit.
+    float still2_s;
+    uint32_t samples;
+    uint32_t rejected_by[JCAL_REJECT_COUNT];
+    float
+        bad_share;  ///< Share of samples that are out of range, frozen or repeated, averaged over about 2 s of samples.
+    bool has_last;
+} jcal_orientation_gate_t;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* JCAL_PRIVATE_ORIENTATION_H */
