@@ -14,7 +14,7 @@ int main()
     const jcal_pair_t pair = {};
     (void)jcal_hinge_update(&hinge, &pair);
     jcal_hinge_result_t result;
-    if (jcal_hinge_get(&hinge, &result) != JCAL_OK || result.samples != 1) {
+    if (jcal_hinge_get(&hinge, &result) != JCAL_OK || result.head.samples != 1) {
         return 1;
     }
     return std::strcmp(jcal_version(), JCAL_VERSION_STRING);

@@ -54,8 +54,8 @@ static bool is_unit(jcal_vec3_t axis)
 
 static void check_two_dof(const jcal_two_dof_result_t *r, uint32_t pushed)
 {
-    require_counts(r->rejected_by, r->samples, r->rejected, pushed);
-    require_words(r->status, r->reason);
+    require_counts(r->head.rejected_by, r->head.samples, r->head.rejected, pushed);
+    require_words(r->head.status, r->head.reason);
     require(!r->has_axes || (is_unit(r->axis1) && is_unit(r->axis2)));
     require_within(r->uncertainty1_rad, 0.0f, 1.5708f);
     require_within(r->uncertainty2_rad, 0.0f, 1.5708f);
@@ -64,14 +64,14 @@ static void check_two_dof(const jcal_two_dof_result_t *r, uint32_t pushed)
     require_within(r->carrying_angle_rad, -1.5708f, 1.5708f);
     require_within(r->progress_axis1 + r->progress_axis2 + r->progress_heading, 0.0f, 3.0f);
     const float limit_rad = 2.0f * jcal_two_dof_config_default().max_bound_rad;
-    require(r->status != JCAL_READY ||
+    require(r->head.status != JCAL_READY ||
             (r->has_axes && r->uncertainty1_rad < limit_rad && r->uncertainty2_rad < limit_rad));
 }
 
 static void check_center(const jcal_center_result_t *r, uint32_t pushed)
 {
-    require_counts(r->rejected_by, r->samples, r->rejected, pushed);
-    require_words(r->status, r->reason);
+    require_counts(r->head.rejected_by, r->head.samples, r->head.rejected, pushed);
+    require_words(r->head.status, r->head.reason);
     require(jcal_vec3_is_finite(r->joint_to_sensor1_m) && jcal_vec3_is_finite(r->joint_to_sensor2_m));
     require(jcal_vec3_is_finite(r->acc_bias1_m_s2) && jcal_vec3_is_finite(r->acc_bias2_m_s2));
     require_within(r->uncertainty1_m, 0.0f, JCAL_BOUND_UNKNOWN_M);
@@ -79,15 +79,16 @@ static void check_center(const jcal_center_result_t *r, uint32_t pushed)
     require_within(r->misfit, 0.0f, 1.0f);
     require_within(r->progress1 + r->progress2, 0.0f, 2.0f);
     const float limit_m = 2.0f * jcal_center_config_default().max_bound_m;
-    require(r->status != JCAL_READY || (r->has_center && r->uncertainty1_m < limit_m && r->uncertainty2_m < limit_m));
+    require(r->head.status != JCAL_READY ||
+            (r->has_center && r->uncertainty1_m < limit_m && r->uncertainty2_m < limit_m));
 }
 
 static void check_chain(uint32_t pushed)
 {
     jcal_chain_result_t r;
     require(jcal_chain_get(&chain, &r) == JCAL_OK);
-    require_counts(r.rejected_by, r.samples, r.rejected, pushed);
-    require_words(r.status, r.reason);
+    require_counts(r.head.rejected_by, r.head.samples, r.head.rejected, pushed);
+    require_words(r.head.status, r.head.reason);
     for (int k = 0; k < JCAL_CHAIN_PLACES; k++) {
         require(jcal_vec3_is_finite(r.place_m[k]));
         require_within(r.uncertainty_m[k], 0.0f, JCAL_BOUND_UNKNOWN_M);

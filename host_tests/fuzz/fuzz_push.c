@@ -37,17 +37,17 @@ static void check_counts(const jcal_hinge_result_t *result, uint32_t pushed)
 {
     uint32_t sum = 0;
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
-        sum += result->rejected_by[k];
+        sum += result->head.rejected_by[k];
     }
-    require(result->samples == pushed && result->rejected == sum && sum <= pushed);
+    require(result->head.samples == pushed && result->head.rejected == sum && sum <= pushed);
 }
 
 static void check_result(const jcal_hinge_result_t *result, jcal_engine_t engine, uint32_t pushed)
 {
     check_counts(result, pushed);
-    require(result->engine == engine);
-    require(result->status >= JCAL_COLLECTING && result->status <= JCAL_MOVED);
-    require(jcal_calibration_string(result->status) != NULL);
+    require(result->head.engine == engine);
+    require(result->head.status >= JCAL_COLLECTING && result->head.status <= JCAL_MOVED);
+    require(jcal_calibration_string(result->head.status) != NULL);
     if (result->has_axes) {
         require(is_unit(result->axis1) && is_unit(result->axis2));
     } else {
@@ -59,7 +59,7 @@ static void check_result(const jcal_hinge_result_t *result, jcal_engine_t engine
     require(result->sign_margin >= 0.0f);
     require(is_fraction(result->progress_axis1) && is_fraction(result->progress_axis2));
     require(is_fraction(result->progress_sign));
-    if (result->status == JCAL_READY) {
+    if (result->head.status == JCAL_READY) {
         const float bound_rad = jcal_hinge_config_default().max_bound_rad;
         require(result->has_axes && result->uncertainty1_rad < 2.0f * bound_rad &&
                 result->uncertainty2_rad < 2.0f * bound_rad);

@@ -216,10 +216,10 @@ static void the_history_has_an_end(void)
 /* Every field has a value of its own. */
 static void fill_result(jcal_hinge_result_t *result)
 {
-    result->status = JCAL_READY;
-    result->weak = JCAL_WEAK_SIGN;
-    result->hint = JCAL_HINT_TILT_AXIS;
-    result->reason = JCAL_REASON_SIGN_OPEN;
+    result->head.status = JCAL_READY;
+    result->head.weak = JCAL_WEAK_SIGN;
+    result->head.hint = JCAL_HINT_TILT_AXIS;
+    result->head.reason = JCAL_REASON_SIGN_OPEN;
     result->has_axes = true;
     result->axis1 = (jcal_vec3_t){0.1f, 0.2f, 0.3f};
     result->axis2 = (jcal_vec3_t){0.4f, 0.5f, 0.6f};
@@ -229,11 +229,11 @@ static void fill_result(jcal_hinge_result_t *result)
     result->progress_axis1 = 0.7f;
     result->progress_axis2 = 0.8f;
     result->progress_sign = 0.9f;
-    result->t_us = (UINT64_C(1) << 62) - 1u;
-    result->samples = 4711;
-    result->rejected_by[JCAL_REJECT_GAP] = 3;
-    result->rejected_by[JCAL_REJECT_NOT_FINITE] = 4;
-    result->rejected = 7;
+    result->head.t_us = (UINT64_C(1) << 62) - 1u;
+    result->head.samples = 4711;
+    result->head.rejected_by[JCAL_REJECT_GAP] = 3;
+    result->head.rejected_by[JCAL_REJECT_NOT_FINITE] = 4;
+    result->head.rejected = 7;
 }
 
 static void an_estimate_comes_back_as_it_was(void)
@@ -252,12 +252,12 @@ static void an_estimate_comes_back_as_it_was(void)
     TEST_ASSERT_TRUE(out.now_us == in.now_us); /* Unity has no 64 bits on targets */
     TEST_ASSERT_EQUAL_MEMORY(&out.result.axis1, &in.result.axis1, sizeof out.result.axis1);
     TEST_ASSERT_EQUAL_MEMORY(&out.result.axis2, &in.result.axis2, sizeof out.result.axis2);
-    TEST_ASSERT_EQUAL_INT(out.result.status, in.result.status);
-    TEST_ASSERT_EQUAL_INT(out.result.reason, in.result.reason);
+    TEST_ASSERT_EQUAL_INT(out.result.head.status, in.result.head.status);
+    TEST_ASSERT_EQUAL_INT(out.result.head.reason, in.result.head.reason);
     TEST_ASSERT_EQUAL_FLOAT(out.result.sign_margin, in.result.sign_margin);
     TEST_ASSERT_EQUAL_FLOAT(out.result.progress_sign, in.result.progress_sign);
-    TEST_ASSERT_TRUE(out.result.t_us == in.result.t_us); /* Unity has no 64 bits on targets */
-    TEST_ASSERT_EQUAL_UINT32(7, in.result.rejected);
+    TEST_ASSERT_TRUE(out.result.head.t_us == in.result.head.t_us); /* Unity has no 64 bits on targets */
+    TEST_ASSERT_EQUAL_UINT32(7, in.result.head.rejected);
     for (size_t size = 0; size < payload.size; size++) { /* shorter is no estimate */
         const frame_t part = {.payload = payload.bytes, .size = size};
         TEST_ASSERT_FALSE(message_read_estimate(&part, &in));

@@ -137,9 +137,9 @@ static void same_result(void)
     jcal_hinge_result_t expected;
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_get(&alone, &expected));
     const jcal_hinge_result_t *got = &seen.estimate.result;
-    TEST_ASSERT_EQUAL_UINT32(expected.samples, got->samples);
-    TEST_ASSERT_EQUAL_UINT32(expected.rejected, got->rejected);
-    TEST_ASSERT_EQUAL_INT(expected.status, got->status);
+    TEST_ASSERT_EQUAL_UINT32(expected.head.samples, got->head.samples);
+    TEST_ASSERT_EQUAL_UINT32(expected.head.rejected, got->head.rejected);
+    TEST_ASSERT_EQUAL_INT(expected.head.status, got->head.status);
     TEST_ASSERT_EQUAL_MEMORY(&expected.axis1, &got->axis1, sizeof got->axis1);
     TEST_ASSERT_EQUAL_MEMORY(&expected.axis2, &got->axis2, sizeof got->axis2);
     TEST_ASSERT_EQUAL_MEMORY(&expected.uncertainty1_rad, &got->uncertainty1_rad, sizeof(float));
@@ -171,7 +171,7 @@ static void play(int eager)
     TEST_ASSERT_EQUAL_UINT32(99, seen.estimate.token);
     TEST_ASSERT_EQUAL_UINT32(99, seen.counters.token);
     same_result();
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, seen.estimate.result.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, seen.estimate.result.head.status);
     TEST_ASSERT_EQUAL_UINT32(SAMPLES + 2u, seen.counters.link.received);
     TEST_ASSERT_EQUAL_UINT32(SAMPLES + 2u, seen.counters.link.taken);
     TEST_ASSERT_EQUAL_UINT32(SAMPLES, seen.counters.samples);

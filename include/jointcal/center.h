@@ -9,6 +9,7 @@
 #define JCAL_CENTER_H
 
 #include "jointcal/center_config.h"
+#include "jointcal/head.h"
 #include "jointcal/private/center/stream.h"
 #include "jointcal/status.h"
 #include "jointcal/types.h"
@@ -22,11 +23,7 @@ extern "C" {
 
 /// What both engines say.
 typedef struct {
-    jcal_calibration_t status;
-    jcal_engine_t engine;
-    jcal_weak_t weak;                ///< The unknown that keeps the status from `ready`, if there is one.
-    jcal_hint_t hint;                ///< The motion that would help.
-    jcal_reason_t reason;            ///< Why the status is not `ready`.
+    jcal_head_t head;
     bool has_center;                 ///< False until there is any estimate; then everything below is zero.
     jcal_vec3_t joint_to_sensor1_m;  ///< r1, from the joint centre to sensor 1, in sensor frame 1.
     jcal_vec3_t joint_to_sensor2_m;  ///< r2, from the joint centre to sensor 2, in sensor frame 2.
@@ -44,10 +41,6 @@ typedef struct {
     float misfit;                ///< Root of the share of the joint's effect that remains unexplained, 0 to 1.
     float progress1;             ///< 0 to 1: how far r1 is on the way to its bound.
     float progress2;             ///< The same for r2.
-    uint64_t t_us;               ///< Time of the last sample that went into this result; 0 before any.
-    uint32_t samples;            ///< Samples pushed.
-    uint32_t rejected;           ///< Samples rejected, all causes.
-    uint32_t rejected_by[JCAL_REJECT_COUNT];
 } jcal_center_result_t;
 
 /// Prepares an estimator; whatever `self` held before is lost.

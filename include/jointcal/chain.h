@@ -10,6 +10,7 @@
 
 #include "jointcal/center.h"
 #include "jointcal/chain_config.h"
+#include "jointcal/head.h"
 #include "jointcal/private/chain/stream.h"
 
 #ifdef __cplusplus
@@ -37,20 +38,15 @@ typedef enum {
 #define JCAL_CHAIN_PLACES 4
 
 typedef struct {
-    jcal_calibration_t status;
-    jcal_weak_t weak;      ///< JCAL_WEAK_CENTER1 the hip, JCAL_WEAK_CENTER2 the knee.
-    jcal_hint_t hint;      ///< The motion that would help that joint: segments 1 and 2 are its proximal and distal one.
-    jcal_reason_t reason;  ///< Why the status is not `ready`.
-    bool has_places;       ///< False until both joints have an estimate; then everything below is zero.
+    /// Its `weak` is JCAL_WEAK_CENTER1 for the hip and JCAL_WEAK_CENTER2 for the knee; its `hint` is the motion that would help that
+    /// joint, segments 1 and 2 being its proximal and distal one; a triple that either joint rejects is rejected.
+    jcal_head_t head;
+    bool has_places;  ///< False until both joints have an estimate; then everything below is zero.
     jcal_vec3_t place_m[JCAL_CHAIN_PLACES];  ///< By jcal_chain_place_t.
     float uncertainty_m[JCAL_CHAIN_PLACES];  ///< 95 % bounds; JCAL_BOUND_UNKNOWN_M if unknown.
     float segment_length_m;                  ///< Distance of hip and knee as estimated.
     float uncertainty_segment_m;             ///< 95 % bound of that.
     jcal_calibration_t joint_status[2];      ///< Of hip and knee, each by itself.
-    uint64_t t_us;                           ///< Time of the last sample that went into this result; 0 before any.
-    uint32_t samples;                        ///< Triples pushed.
-    uint32_t rejected;                       ///< Triples rejected by either joint, all causes.
-    uint32_t rejected_by[JCAL_REJECT_COUNT];
 } jcal_chain_result_t;
 
 /// Prepares an estimator; whatever `self` held before is lost.

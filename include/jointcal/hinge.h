@@ -6,6 +6,7 @@
 #ifndef JCAL_HINGE_H
 #define JCAL_HINGE_H
 
+#include "jointcal/head.h"
 #include "jointcal/hinge_config.h"
 #include "jointcal/private/hinge/stream.h"
 #include "jointcal/status.h"
@@ -20,15 +21,11 @@ extern "C" {
 
 /// What both hinge engines say.
 typedef struct {
-    jcal_calibration_t status;
-    jcal_engine_t engine;
-    jcal_weak_t weak;      ///< The unknown that keeps the status from `ready`, if there is one.
-    jcal_hint_t hint;      ///< The motion that would help.
-    jcal_reason_t reason;  ///< Why the status is not `ready`.
-    bool has_axes;         ///< False until there is any estimate; then axis1, axis2 are zero.
-    bool paper_accepted;   ///< Window engine: what Algorithm 4 of [OLS20] says. Stream engine: false.
-    jcal_vec3_t axis1;     ///< Unit joint axis in sensor frame 1; its largest component is positive.
-    jcal_vec3_t axis2;     ///< Unit joint axis in sensor frame 2, sign following the pairing.
+    jcal_head_t head;
+    bool has_axes;        ///< False until there is any estimate; then axis1, axis2 are zero.
+    bool paper_accepted;  ///< Window engine: what Algorithm 4 of [OLS20] says. Stream engine: false.
+    jcal_vec3_t axis1;    ///< Unit joint axis in sensor frame 1; its largest component is positive.
+    jcal_vec3_t axis2;    ///< Unit joint axis in sensor frame 2, sign following the pairing.
     /// 95 % bound of the angle between axis1 and the truth; JCAL_BOUND_UNKNOWN_RAD if unknown.
     float uncertainty1_rad;
     float uncertainty2_rad;  ///< The same for axis2.
@@ -36,10 +33,6 @@ typedef struct {
     float progress_axis1;    ///< 0 to 1: how far axis1 is on the way to its bound.
     float progress_axis2;    ///< The same for axis2.
     float progress_sign;     ///< The same for the evidence of the sign pairing.
-    uint64_t t_us;           ///< Time of the last sample that went into this result; 0 before any.
-    uint32_t samples;        ///< Samples pushed.
-    uint32_t rejected;       ///< Samples rejected, all causes.
-    uint32_t rejected_by[JCAL_REJECT_COUNT];
 } jcal_hinge_result_t;
 
 /// Prepares an estimator; whatever `self` held before is lost.

@@ -14,6 +14,7 @@
 #include "jointcal/chain.h"
 #include "jointcal/config.h"
 #include "jointcal/gate.h"
+#include "jointcal/head.h"
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_window.h"
 #include "jointcal/joint_angles.h"

@@ -7,6 +7,7 @@
 #ifndef JCAL_TWO_DOF_H
 #define JCAL_TWO_DOF_H
 
+#include "jointcal/head.h"
 #include "jointcal/orientation.h"
 #include "jointcal/private/two_dof/stream.h"
 #include "jointcal/status.h"
@@ -18,11 +19,7 @@ extern "C" {
 
 /// What both engines say.
 typedef struct {
-    jcal_calibration_t status;
-    jcal_engine_t engine;
-    jcal_weak_t weak;          ///< The unknown that keeps the status from `ready`, if there is one.
-    jcal_hint_t hint;          ///< The motion that would help.
-    jcal_reason_t reason;      ///< Why the status is not `ready`.
+    jcal_head_t head;
     bool has_axes;             ///< False until there is any estimate; then axes, heading and carrying angle are zero.
     jcal_vec3_t axis1;         ///< Unit axis j1 in sensor frame 1; its largest component is positive.
     jcal_vec3_t axis2;         ///< Unit axis j2 in sensor frame 2; its largest component is positive.
@@ -35,10 +32,6 @@ typedef struct {
     float progress_axis1;           ///< 0 to 1: how far axis1 is on the way to its bound.
     float progress_axis2;           ///< The same for axis2.
     float progress_heading;         ///< The same for the heading offset.
-    uint64_t t_us;                  ///< Time of the last sample that went into this result; 0 before any.
-    uint32_t samples;               ///< Samples pushed.
-    uint32_t rejected;              ///< Samples rejected, all causes.
-    uint32_t rejected_by[JCAL_REJECT_COUNT];
 } jcal_two_dof_result_t;
 
 /// Prepares an estimator; whatever `self` held before is lost.

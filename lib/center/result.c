@@ -40,10 +40,10 @@ void jcal_center_report(const jcal_center_config_t *cfg, const jcal_center_work_
 {
     const jcal_center_verdict_t *const verdict = &work->verdict;
     *out = (jcal_center_result_t){0};
-    out->status = (jcal_calibration_t)verdict->status;
-    out->weak = (jcal_weak_t)verdict->weak;
-    out->hint = (jcal_hint_t)verdict->hint;
-    out->reason = (jcal_reason_t)verdict->reason;
+    out->head.status = (jcal_calibration_t)verdict->status;
+    out->head.weak = (jcal_weak_t)verdict->weak;
+    out->head.hint = (jcal_hint_t)verdict->hint;
+    out->head.reason = (jcal_reason_t)verdict->reason;
     out->uncertainty1_m = verdict->bound1_m;
     out->uncertainty2_m = verdict->bound2_m;
     out->uncertainty_weakest1_m = verdict->weakest1_m;
@@ -55,18 +55,18 @@ void jcal_center_report(const jcal_center_config_t *cfg, const jcal_center_work_
     out->progress2 = progress(verdict->bound2_m, cfg->max_bound_m);
     const jcal_reason_t complaint = jcal_gate_complaint(&input->gate);
     if (complaint != JCAL_REASON_NONE) { /* a sensor that fails sends nothing that a judgement would follow */
-        out->status = JCAL_COLLECTING;
-        out->reason = complaint;
-        out->hint = JCAL_HINT_CHECK_SENSORS;
+        out->head.status = JCAL_COLLECTING;
+        out->head.reason = complaint;
+        out->head.hint = JCAL_HINT_CHECK_SENSORS;
     }
     out->has_center = has_point;
     if (has_point) {
         tell_point(cfg, &work->sums.point, out);
     }
-    out->samples = input->gate.samples;
+    out->head.samples = input->gate.samples;
     for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
-        out->rejected_by[i] = input->gate.rejected_by[i];
-        out->rejected += input->gate.rejected_by[i];
+        out->head.rejected_by[i] = input->gate.rejected_by[i];
+        out->head.rejected += input->gate.rejected_by[i];
     }
 }
 
@@ -76,7 +76,7 @@ jcal_status_t jcal_center_get(const jcal_center_t *self, jcal_center_result_t *o
         return JCAL_ERR_ARG;
     }
     jcal_center_report(&self->cfg, &self->work, &self->input, self->has_point, out);
-    out->engine = JCAL_ENGINE_STREAM;
-    out->t_us = self->t_us;
+    out->head.engine = JCAL_ENGINE_STREAM;
+    out->head.t_us = self->t_us;
     return JCAL_OK;
 }

@@ -247,7 +247,7 @@ jcal_status_t jcal_center_window_get(const jcal_center_window_t *self, jcal_cent
         return JCAL_ERR_ARG;
     }
     jcal_center_report(&self->cfg.center, &self->work, &self->input, self->has_point, out);
-    out->engine = JCAL_ENGINE_WINDOW;
-    out->t_us = self->t_us;
+    out->head.engine = JCAL_ENGINE_WINDOW;
+    out->head.t_us = self->t_us;
     return JCAL_OK;
 }

@@ -215,8 +215,8 @@ static joint_news_t tell_apart(const jcal_center_t *joint, jcal_chain_place_t fi
     out->place_m[at + 1u] = r.joint_to_sensor2_m;
     out->uncertainty_m[at] = r.uncertainty1_m;
     out->uncertainty_m[at + 1u] = r.uncertainty2_m;
-    out->joint_status[at / 2u] = r.status;
-    const joint_news_t news = {r.status, r.hint, r.reason, r.has_center, r.t_us};
+    out->joint_status[at / 2u] = r.head.status;
+    const joint_news_t news = {r.head.status, r.head.hint, r.head.reason, r.has_center, r.head.t_us};
     return news;
 }
 
@@ -249,17 +249,17 @@ static void tell_status(const jcal_chain_t *self, const joint_news_t *hip, const
     const bool hip_known = is_sound(hip) && ((worst[0] <= limit) || (hip->status == JCAL_READY));
     const bool knee_known = is_sound(knee) && ((worst[1] <= limit) || (knee->status == JCAL_READY));
     if (hip_known && knee_known) {
-        out->status = fits ? JCAL_READY : JCAL_COLLECTING;
-        out->reason = fits ? JCAL_REASON_NONE : JCAL_REASON_DOES_NOT_FIT;
-        out->hint = fits ? JCAL_HINT_NONE : JCAL_HINT_CHECK_SENSORS;
+        out->head.status = fits ? JCAL_READY : JCAL_COLLECTING;
+        out->head.reason = fits ? JCAL_REASON_NONE : JCAL_REASON_DOES_NOT_FIT;
+        out->head.hint = fits ? JCAL_HINT_NONE : JCAL_HINT_CHECK_SENSORS;
         return;
     }
     const bool hip_first = !hip_known && (knee_known || (worst[0] >= worst[1]));
     const joint_news_t *const weaker = hip_first ? hip : knee;
-    out->status = ((hip->status == JCAL_MOVED) || (knee->status == JCAL_MOVED)) ? JCAL_MOVED : JCAL_COLLECTING;
-    out->weak = hip_first ? JCAL_WEAK_CENTER1 : JCAL_WEAK_CENTER2;
-    out->hint = weaker->hint;
-    out->reason = weaker->reason;
+    out->head.status = ((hip->status == JCAL_MOVED) || (knee->status == JCAL_MOVED)) ? JCAL_MOVED : JCAL_COLLECTING;
+    out->head.weak = hip_first ? JCAL_WEAK_CENTER1 : JCAL_WEAK_CENTER2;
+    out->head.hint = weaker->hint;
+    out->head.reason = weaker->reason;
 }
 
 jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out)
@@ -285,11 +285,11 @@ jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out)
             (2.0f * self->cfg.center.mismatch_m) + (NORMAL_95 * segment_deviation(&state, direction));
     }
     tell_status(self, &hip, &knee, fits, out);
-    out->t_us = (hip.t_us > knee.t_us) ? hip.t_us : knee.t_us;
-    out->samples = self->samples;
+    out->head.t_us = (hip.t_us > knee.t_us) ? hip.t_us : knee.t_us;
+    out->head.samples = self->samples;
     for (size_t i = 0u; i < (size_t)JCAL_REJECT_COUNT; ++i) {
-        out->rejected_by[i] = self->rejected_by[i];
-        out->rejected += self->rejected_by[i];
+        out->head.rejected_by[i] = self->rejected_by[i];
+        out->head.rejected += self->rejected_by[i];
     }
     return JCAL_OK;
 }

@@ -17,10 +17,10 @@ static float progress(float bound_rad, float max_bound_rad)
 static void tell_verdict(const jcal_hinge_t *self, jcal_hinge_result_t *result)
 {
     const jcal_hinge_verdict_t *const verdict = &self->verdict;
-    result->status = (jcal_calibration_t)verdict->status;
-    result->weak = (jcal_weak_t)verdict->weak;
-    result->hint = (jcal_hint_t)verdict->hint;
-    result->reason = (jcal_reason_t)verdict->reason;
+    result->head.status = (jcal_calibration_t)verdict->status;
+    result->head.weak = (jcal_weak_t)verdict->weak;
+    result->head.hint = (jcal_hint_t)verdict->hint;
+    result->head.reason = (jcal_reason_t)verdict->reason;
     result->uncertainty1_rad = verdict->bound1_rad;
     result->uncertainty2_rad = verdict->bound2_rad;
     result->sign_margin = verdict->sign_margin;
@@ -29,9 +29,9 @@ static void tell_verdict(const jcal_hinge_t *self, jcal_hinge_result_t *result)
     result->progress_sign = (self->cfg.sign_hint != JCAL_SIGN_UNKNOWN) ? 1.0f : verdict->sign_progress;
     const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
     if (complaint != JCAL_REASON_NONE) { /* a sensor that fails sends nothing that a judgement would follow */
-        result->status = JCAL_COLLECTING;
-        result->reason = complaint;
-        result->hint = JCAL_HINT_CHECK_SENSORS;
+        result->head.status = JCAL_COLLECTING;
+        result->head.reason = complaint;
+        result->head.hint = JCAL_HINT_CHECK_SENSORS;
     }
 }
 
@@ -41,7 +41,7 @@ jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
         return JCAL_ERR_ARG;
     }
     jcal_hinge_result_t result = {0};
-    result.engine = JCAL_ENGINE_STREAM;
+    result.head.engine = JCAL_ENGINE_STREAM;
     tell_verdict(self, &result);
     result.has_axes = self->has_point;
     if (self->has_point) {
@@ -49,11 +49,11 @@ jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
         result.axis1 = jcal_vec3_scale(self->refine.point.axis1.j, sign);
         result.axis2 = jcal_vec3_scale(self->refine.point.axis2.j, sign);
     }
-    result.t_us = self->last_us;
-    result.samples = self->gate.samples;
+    result.head.t_us = self->last_us;
+    result.head.samples = self->gate.samples;
     for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
-        result.rejected_by[i] = self->gate.rejected_by[i];
-        result.rejected += self->gate.rejected_by[i];
+        result.head.rejected_by[i] = self->gate.rejected_by[i];
+        result.head.rejected += self->gate.rejected_by[i];
     }
     *out = result;
     return JCAL_OK;

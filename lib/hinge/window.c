@@ -248,21 +248,21 @@ static void judge_beside_guard(const jcal_hinge_window_t *self, jcal_hinge_resul
     const float apart2 = jcal_sphere_line_angle(guard2, result->axis2);
     result->uncertainty1_rad = jcal_min(result->uncertainty1_rad + apart1, JCAL_BOUND_UNKNOWN_RAD);
     result->uncertainty2_rad = jcal_min(result->uncertainty2_rad + apart2, JCAL_BOUND_UNKNOWN_RAD);
-    if (result->status != JCAL_READY) {
+    if (result->head.status != JCAL_READY) {
         return;
     }
     const bool same_pairing = (jcal_vec3_dot(guard1, result->axis1) * jcal_vec3_dot(guard2, result->axis2)) > 0.0f;
     const float worst_rad = jcal_max(result->uncertainty1_rad, result->uncertainty2_rad);
     if (!same_pairing) {
-        result->status = JCAL_AMBIGUOUS;
-        result->reason = JCAL_REASON_SIGN_OPEN;
-        result->weak = JCAL_WEAK_SIGN;
-        result->hint = JCAL_HINT_TILT_AXIS;
+        result->head.status = JCAL_AMBIGUOUS;
+        result->head.reason = JCAL_REASON_SIGN_OPEN;
+        result->head.weak = JCAL_WEAK_SIGN;
+        result->head.hint = JCAL_HINT_TILT_AXIS;
     } else if (worst_rad > self->cfg.hinge.max_bound_rad) {
-        result->status = JCAL_COLLECTING;
-        result->reason = JCAL_REASON_UNCERTAIN;
-        result->weak = (result->uncertainty1_rad >= worst_rad) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
-        result->hint = JCAL_HINT_MOVE_JOINT;
+        result->head.status = JCAL_COLLECTING;
+        result->head.reason = JCAL_REASON_UNCERTAIN;
+        result->head.weak = (result->uncertainty1_rad >= worst_rad) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
+        result->head.hint = JCAL_HINT_MOVE_JOINT;
     } else {
         /* Both engines agree. */
     }
@@ -275,7 +275,7 @@ jcal_status_t jcal_hinge_window_get(const jcal_hinge_window_t *self, jcal_hinge_
         return JCAL_ERR_ARG;
     }
     const float sign = jcal_hinge_main_sign(self->axes.j[0]);
-    result.engine = JCAL_ENGINE_WINDOW;
+    result.head.engine = JCAL_ENGINE_WINDOW;
     result.axis1 = jcal_vec3_scale(self->axes.j[0], sign);
     result.axis2 = jcal_vec3_scale(self->axes.j[1], sign);
     result.sign_margin = self->sign_margin;
@@ -284,7 +284,7 @@ jcal_status_t jcal_hinge_window_get(const jcal_hinge_window_t *self, jcal_hinge_
     if (result.has_axes) {
         judge_beside_guard(self, &result);
     } else {
-        result.status = (result.status == JCAL_MOVED) ? JCAL_MOVED : JCAL_COLLECTING;
+        result.head.status = (result.head.status == JCAL_MOVED) ? JCAL_MOVED : JCAL_COLLECTING;
         result.axis1 = jcal_vec3(0.0f, 0.0f, 0.0f);
         result.axis2 = jcal_vec3(0.0f, 0.0f, 0.0f);
     }

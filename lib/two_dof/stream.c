@@ -309,7 +309,7 @@ jcal_status_t jcal_two_dof_get(const jcal_two_dof_t *self, jcal_two_dof_result_t
     }
     jcal_two_dof_report(&self->verdict, &self->cfg, self->has_best ? &self->best.point : NULL, out);
     jcal_two_dof_report_gate(&self->gate, out);
-    out->engine = JCAL_ENGINE_STREAM;
-    out->t_us = self->t_us;
+    out->head.engine = JCAL_ENGINE_STREAM;
+    out->head.t_us = self->t_us;
     return JCAL_OK;
 }

@@ -229,10 +229,10 @@ void jcal_two_dof_report(const jcal_two_dof_verdict_t *verdict, const jcal_two_d
 {
     const float limit = cfg->max_bound_rad;
     *out = (jcal_two_dof_result_t){0};
-    out->status = (jcal_calibration_t)verdict->status;
-    out->weak = (jcal_weak_t)verdict->weak;
-    out->hint = (jcal_hint_t)verdict->hint;
-    out->reason = (jcal_reason_t)verdict->reason;
+    out->head.status = (jcal_calibration_t)verdict->status;
+    out->head.weak = (jcal_weak_t)verdict->weak;
+    out->head.hint = (jcal_hint_t)verdict->hint;
+    out->head.reason = (jcal_reason_t)verdict->reason;
     out->uncertainty1_rad = verdict->bound1_rad;
     out->uncertainty2_rad = verdict->bound2_rad;
     out->uncertainty_heading_rad = verdict->bound_heading_rad;
@@ -247,9 +247,9 @@ void jcal_two_dof_report(const jcal_two_dof_verdict_t *verdict, const jcal_two_d
 
 void jcal_two_dof_report_gate(const jcal_orientation_gate_t *gate, jcal_two_dof_result_t *out)
 {
-    out->samples = gate->samples;
+    out->head.samples = gate->samples;
     for (size_t i = 0u; i < (size_t)JCAL_REJECT_COUNT; ++i) {
-        out->rejected_by[i] = gate->rejected_by[i];
-        out->rejected += out->rejected_by[i];
+        out->head.rejected_by[i] = gate->rejected_by[i];
+        out->head.rejected += out->head.rejected_by[i];
     }
 }

@@ -199,8 +199,8 @@ jcal_status_t jcal_two_dof_window_get(const jcal_two_dof_window_t *self, jcal_tw
     const jcal_two_dof_point_t *const point = self->search.has_best ? &self->search.best.point : NULL;
     jcal_two_dof_report(&self->verdict, &self->cfg.two_dof, point, out);
     jcal_two_dof_report_gate(&self->gate, out);
-    out->engine = JCAL_ENGINE_WINDOW;
-    out->t_us = (self->count > 0u) ? row_at(self, (size_t)self->count - 1u)->t_us : 0u;
+    out->head.engine = JCAL_ENGINE_WINDOW;
+    out->head.t_us = (self->count > 0u) ? row_at(self, (size_t)self->count - 1u)->t_us : 0u;
     return JCAL_OK;
 }
 

@@ -280,22 +280,17 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
 
 static uint64_t hash_result(uint64_t hash, const result_t *r)
 {
-#ifdef REPLAY_CHAIN
-    const uint32_t engine = (uint32_t)JCAL_ENGINE_STREAM;
-#else
-    const uint32_t engine = (uint32_t)r->engine;
-#endif
-    const uint32_t words[] = {
-        (uint32_t)r->status,   engine,     (uint32_t)r->weak, (uint32_t)r->hint, (uint32_t)r->reason,
-        r->has_axes ? 1u : 0u, r->samples, r->rejected};
+    const jcal_head_t *const h = &r->head;
+    const uint32_t words[] = {(uint32_t)h->status, (uint32_t)h->engine,   (uint32_t)h->weak, (uint32_t)h->hint,
+                              (uint32_t)h->reason, r->has_axes ? 1u : 0u, h->samples,        h->rejected};
     for (size_t k = 0; k < sizeof(words) / sizeof(words[0]); ++k) {
         hash = hash_u64(hash, words[k], 4);
     }
     hash = hash_floats(hash, r);
     for (int k = 0; k < JCAL_REJECT_COUNT; ++k) {
-        hash = hash_u64(hash, r->rejected_by[k], 4);
+        hash = hash_u64(hash, h->rejected_by[k], 4);
     }
-    return hash_u64(hash, r->t_us, 8);
+    return hash_u64(hash, h->t_us, 8);
 }
 
 int main(void)

@@ -149,8 +149,8 @@ static void answer_counters(hub_t *self, uint32_t token)
                                    .link = self->link.counts,
                                    .unknown = self->unknown,
                                    .overrun = self->overrun,
-                                   .samples = result.samples};
-    memcpy(counters.rejected_by, result.rejected_by, sizeof counters.rejected_by);
+                                   .samples = result.head.samples};
+    memcpy(counters.rejected_by, result.head.rejected_by, sizeof counters.rejected_by);
     frame_writer_t payload;
     message_write_counters(&payload, &counters);
     answer(self, FRAME_COUNTERS, &payload);
@@ -218,13 +218,13 @@ static void step(hub_t *self, uint64_t t_us)
     }
     (void)jcal_hinge_get(&self->hinge, &result);
     uint8_t events = 0;
-    if (result.status != self->status && result.status == JCAL_READY) {
+    if (result.head.status != self->status && result.head.status == JCAL_READY) {
         events |= MESSAGE_EVENT_READY;
     }
-    if (result.status != self->status && result.status == JCAL_MOVED) {
+    if (result.head.status != self->status && result.head.status == JCAL_MOVED) {
         events |= MESSAGE_EVENT_MOVED;
     }
-    self->status = result.status;
+    self->status = result.head.status;
     const bool due = estimate_due(self, t_us);
     if (due) {
         events |= MESSAGE_EVENT_DUE;

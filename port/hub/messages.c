@@ -106,11 +106,11 @@ void message_write_estimate(frame_writer_t *out, const message_estimate_t *in)
     frame_write_u8(out, in->events);
     frame_write_u32(out, in->token);
     frame_write_u64(out, in->now_us);
-    frame_write_u8(out, (uint8_t)result->status);
-    frame_write_u8(out, (uint8_t)result->engine);
-    frame_write_u8(out, (uint8_t)result->weak);
-    frame_write_u8(out, (uint8_t)result->hint);
-    frame_write_u8(out, (uint8_t)result->reason);
+    frame_write_u8(out, (uint8_t)result->head.status);
+    frame_write_u8(out, (uint8_t)result->head.engine);
+    frame_write_u8(out, (uint8_t)result->head.weak);
+    frame_write_u8(out, (uint8_t)result->head.hint);
+    frame_write_u8(out, (uint8_t)result->head.reason);
     frame_write_u8(out, (result->has_axes ? FLAG_HAS_AXES : 0u) | (result->paper_accepted ? FLAG_PAPER_ACCEPTED : 0u));
     write_vector(out, result->axis1);
     write_vector(out, result->axis2);
@@ -120,10 +120,10 @@ void message_write_estimate(frame_writer_t *out, const message_estimate_t *in)
     frame_write_f32(out, result->progress_axis1);
     frame_write_f32(out, result->progress_axis2);
     frame_write_f32(out, result->progress_sign);
-    frame_write_u64(out, result->t_us);
-    frame_write_u32(out, result->samples);
+    frame_write_u64(out, result->head.t_us);
+    frame_write_u32(out, result->head.samples);
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
-        frame_write_u32(out, result->rejected_by[k]);
+        frame_write_u32(out, result->head.rejected_by[k]);
     }
 }
 
@@ -135,11 +135,11 @@ bool message_read_estimate(const frame_t *frame, message_estimate_t *out)
     out->events = frame_read_u8(&in);
     out->token = frame_read_u32(&in);
     out->now_us = frame_read_u64(&in);
-    result->status = (jcal_calibration_t)frame_read_u8(&in);
-    result->engine = (jcal_engine_t)frame_read_u8(&in);
-    result->weak = (jcal_weak_t)frame_read_u8(&in);
-    result->hint = (jcal_hint_t)frame_read_u8(&in);
-    result->reason = (jcal_reason_t)frame_read_u8(&in);
+    result->head.status = (jcal_calibration_t)frame_read_u8(&in);
+    result->head.engine = (jcal_engine_t)frame_read_u8(&in);
+    result->head.weak = (jcal_weak_t)frame_read_u8(&in);
+    result->head.hint = (jcal_hint_t)frame_read_u8(&in);
+    result->head.reason = (jcal_reason_t)frame_read_u8(&in);
     const uint8_t flags = frame_read_u8(&in);
     result->has_axes = (flags & FLAG_HAS_AXES) != 0;
     result->paper_accepted = (flags & FLAG_PAPER_ACCEPTED) != 0;
@@ -151,11 +151,11 @@ bool message_read_estimate(const frame_t *frame, message_estimate_t *out)
     result->progress_axis1 = frame_read_f32(&in);
     result->progress_axis2 = frame_read_f32(&in);
     result->progress_sign = frame_read_f32(&in);
-    result->t_us = frame_read_u64(&in);
-    result->samples = frame_read_u32(&in);
+    result->head.t_us = frame_read_u64(&in);
+    result->head.samples = frame_read_u32(&in);
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
-        result->rejected_by[k] = frame_read_u32(&in);
-        result->rejected += result->rejected_by[k];
+        result->head.rejected_by[k] = frame_read_u32(&in);
+        result->head.rejected += result->head.rejected_by[k];
     }
     return frame_read_all(&in);
 }

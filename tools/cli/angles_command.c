@@ -111,7 +111,7 @@ static bool update_engine(session_t *session, const recording_row_t *row, const 
         if (jcal_hinge_update(&session->hinge, &pair) < 0 || jcal_hinge_get(&session->hinge, &result) != JCAL_OK) {
             return false;
         }
-        if (result.status == JCAL_READY) {
+        if (result.head.status == JCAL_READY) {
             set_axes(session, result.axis1, result.axis2, 0.0f);
         }
         return true;
@@ -121,7 +121,7 @@ static bool update_engine(session_t *session, const recording_row_t *row, const 
         jcal_two_dof_get(&session->two_dof, &result) != JCAL_OK) {
         return false;
     }
-    if (result.status == JCAL_READY) {
+    if (result.head.status == JCAL_READY) {
         set_axes(session, result.axis1, result.axis2, result.carrying_angle_rad);
         session->joint.heading_rad = result.heading_offset_rad;
     }

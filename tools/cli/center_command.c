@@ -56,7 +56,7 @@ static bool push_pair(center_run_t *run, const jcal_pair_t *pair, const jcal_att
     }
     center_engine_get(&run->engine, &run->result);
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
-        run->rejected_by[k] += run->result.rejected_by[k] - before.rejected_by[k];
+        run->rejected_by[k] += run->result.head.rejected_by[k] - before.head.rejected_by[k];
     }
     return true;
 }

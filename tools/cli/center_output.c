@@ -22,17 +22,17 @@ const report_words_t CENTER_WORDS = {
 
 finding_t center_finding(const jcal_center_result_t *result)
 {
-    finding_t finding = {.status = result->status,
-                         .engine = result->engine,
-                         .weak = result->weak,
-                         .hint = result->hint,
-                         .reason = result->reason,
+    finding_t finding = {.status = result->head.status,
+                         .engine = result->head.engine,
+                         .weak = result->head.weak,
+                         .hint = result->head.hint,
+                         .reason = result->head.reason,
                          .has_estimate = result->has_center,
                          .bound1 = result->uncertainty1_m,
                          .bound2 = result->uncertainty2_m,
-                         .samples = result->samples,
-                         .rejected = result->rejected};
-    memcpy(finding.rejected_by, result->rejected_by, sizeof finding.rejected_by);
+                         .samples = result->head.samples,
+                         .rejected = result->head.rejected};
+    memcpy(finding.rejected_by, result->head.rejected_by, sizeof finding.rejected_by);
     return finding;
 }
 
@@ -71,7 +71,7 @@ void center_write_json(FILE *file, const char *event, const report_t *report, co
     json_number(&json, "heading_offset_deg",
                 (known && setting->has_heading) ? DEG_PER_RAD * result->heading_offset_rad : NAN);
     json_number(&json, "misfit", (known && result->misfit > 0.0f) ? result->misfit : NAN);
-    if (result->engine == JCAL_ENGINE_WINDOW) {
+    if (result->head.engine == JCAL_ENGINE_WINDOW) {
         json_word(&json, "paper_accepted", NULL); /* the paper has no test of that kind */
     }
     report_json_end(&json, &report->finding);

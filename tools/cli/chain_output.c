@@ -29,17 +29,17 @@ static const char *const LABELS[JCAL_CHAIN_PLACES] = {"hip to pelvis", "hip to t
 finding_t chain_finding(const jcal_chain_result_t *result)
 {
     const float *bounds = result->uncertainty_m;
-    finding_t finding = {.status = result->status,
+    finding_t finding = {.status = result->head.status,
                          .engine = JCAL_ENGINE_STREAM,
-                         .weak = result->weak,
-                         .hint = result->hint,
-                         .reason = result->reason,
+                         .weak = result->head.weak,
+                         .hint = result->head.hint,
+                         .reason = result->head.reason,
                          .has_estimate = result->has_places,
                          .bound1 = fmaxf(bounds[0], bounds[1]),
                          .bound2 = fmaxf(bounds[2], bounds[3]),
-                         .samples = result->samples,
-                         .rejected = result->rejected};
-    memcpy(finding.rejected_by, result->rejected_by, sizeof finding.rejected_by);
+                         .samples = result->head.samples,
+                         .rejected = result->head.rejected};
+    memcpy(finding.rejected_by, result->head.rejected_by, sizeof finding.rejected_by);
     return finding;
 }
 

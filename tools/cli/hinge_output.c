@@ -19,19 +19,19 @@ const report_words_t HINGE_WORDS = {
 
 finding_t hinge_finding(const jcal_hinge_result_t *result)
 {
-    finding_t finding = {.status = result->status,
-                         .engine = result->engine,
-                         .weak = result->weak,
-                         .hint = result->hint,
-                         .reason = result->reason,
+    finding_t finding = {.status = result->head.status,
+                         .engine = result->head.engine,
+                         .weak = result->head.weak,
+                         .hint = result->head.hint,
+                         .reason = result->head.reason,
                          .has_estimate = result->has_axes,
                          .axis1 = result->axis1,
                          .axis2 = result->axis2,
                          .bound1 = result->uncertainty1_rad,
                          .bound2 = result->uncertainty2_rad,
-                         .samples = result->samples,
-                         .rejected = result->rejected};
-    memcpy(finding.rejected_by, result->rejected_by, sizeof finding.rejected_by);
+                         .samples = result->head.samples,
+                         .rejected = result->head.rejected};
+    memcpy(finding.rejected_by, result->head.rejected_by, sizeof finding.rejected_by);
     return finding;
 }
 
@@ -40,7 +40,7 @@ void hinge_write_json(FILE *file, const char *event, const report_t *report, con
     json_t json = report_json_begin(file, event, report);
     report_json_axes(&json, &report->finding);
     json_number(&json, "sign_margin", (result->sign_margin > 0.0f) ? result->sign_margin : NAN);
-    if (result->engine == JCAL_ENGINE_WINDOW) {
+    if (result->head.engine == JCAL_ENGINE_WINDOW) {
         json_bool(&json, "paper_accepted", result->paper_accepted);
     }
     report_json_end(&json, &report->finding);
@@ -62,7 +62,7 @@ void hinge_print_summary(FILE *file, const report_t *report, const jcal_hinge_re
     report_print_axes(file, report);
     print_pairing(file, result->sign_margin);
     report_print_state(file, report);
-    if (result->engine == JCAL_ENGINE_WINDOW) {
+    if (result->head.engine == JCAL_ENGINE_WINDOW) {
         report_print_words(file, "paper's test", result->paper_accepted ? "accepted" : "not accepted");
     }
     report_print_exit(file, report);

@@ -285,7 +285,7 @@ static exit_status_t finish(session_t *session)
         return output_trouble(session);
     }
     tell_counters(session);
-    return (session->estimate.result.status == JCAL_READY) ? EXIT_READY : EXIT_NOT_READY;
+    return (session->estimate.result.head.status == JCAL_READY) ? EXIT_READY : EXIT_NOT_READY;
 }
 
 static exit_status_t run_rows(session_t *session)

@@ -47,7 +47,7 @@ static bool push_orientations(two_dof_run_t *run, uint64_t t_us)
     }
     two_dof_engine_get(&run->engine, &run->result);
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
-        run->rejected_by[k] += run->result.rejected_by[k] - before.rejected_by[k];
+        run->rejected_by[k] += run->result.head.rejected_by[k] - before.head.rejected_by[k];
     }
     return true;
 }

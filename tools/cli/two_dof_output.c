@@ -18,11 +18,11 @@ const report_words_t TWO_DOF_WORDS = {
 
 finding_t two_dof_finding(const jcal_two_dof_result_t *result)
 {
-    return (finding_t){.status = result->status,
-                       .engine = result->engine,
-                       .weak = result->weak,
-                       .hint = result->hint,
-                       .reason = result->reason,
+    return (finding_t){.status = result->head.status,
+                       .engine = result->head.engine,
+                       .weak = result->head.weak,
+                       .hint = result->head.hint,
+                       .reason = result->head.reason,
                        .has_estimate = result->has_axes,
                        .axis1 = result->axis1,
                        .axis2 = result->axis2,
@@ -51,7 +51,7 @@ void two_dof_write_json(FILE *file, const char *event, const report_t *report, c
     json_number(&json, "heading_offset_deg", known ? heading_deg(result->heading_offset_rad) : NAN);
     json_number(&json, "uncertainty_heading_deg", heading_bounded(result) ? bound_deg : NAN);
     json_number(&json, "carrying_angle_deg", known ? DEG_PER_RAD * result->carrying_angle_rad : NAN);
-    if (result->engine == JCAL_ENGINE_WINDOW) {
+    if (result->head.engine == JCAL_ENGINE_WINDOW) {
         json_word(&json, "paper_accepted", NULL); /* Laidig et al. have no such test */
     }
     report_json_end(&json, &report->finding);

@@ -15,11 +15,11 @@ static bool on_sample(uint64_t t_us, jcal_imu_t thigh, jcal_imu_t shank)
     jcal_hinge_result_t result;
     (void)jcal_hinge_update(&hinge, &pair); /* a rejected sample is counted in the result */
     (void)jcal_hinge_get(&hinge, &result);
-    if (result.status == JCAL_READY) {
+    if (result.head.status == JCAL_READY) {
         printf("axis of the shank sensor: %.3f %.3f %.3f, right to %.1f deg\n", (double)result.axis2.x,
                (double)result.axis2.y, (double)result.axis2.z, (double)result.uncertainty2_rad * 57.3);
     }
-    return result.status == JCAL_READY;
+    return result.head.status == JCAL_READY;
 }
 
 /* In place of a sensor: a segment that hangs from a tilting joint axis (its z) and turns about it. */

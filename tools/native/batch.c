@@ -82,14 +82,22 @@ static jcal_pair_t pair_at(uint64_t t_us, const float *v)
 static void write_row(const jcal_hinge_result_t *r, float row[static JCAL_BATCH_COLUMNS])
 {
     const float values[JCAL_BATCH_COLUMNS] = {
-        (float)r->status,    (float)r->reason,
-        (float)r->weak,      (float)r->hint,
-        r->axis1.x,          r->axis1.y,
-        r->axis1.z,          r->axis2.x,
-        r->axis2.y,          r->axis2.z,
-        r->uncertainty1_rad, r->uncertainty2_rad,
-        r->sign_margin,      r->paper_accepted ? 1.0f : 0.0f,
-        r->progress_axis1,   r->progress_axis2,
+        (float)r->head.status,
+        (float)r->head.reason,
+        (float)r->head.weak,
+        (float)r->head.hint,
+        r->axis1.x,
+        r->axis1.y,
+        r->axis1.z,
+        r->axis2.x,
+        r->axis2.y,
+        r->axis2.z,
+        r->uncertainty1_rad,
+        r->uncertainty2_rad,
+        r->sign_margin,
+        r->paper_accepted ? 1.0f : 0.0f,
+        r->progress_axis1,
+        r->progress_axis2,
         r->progress_sign,
     };
     memcpy(row, values, sizeof(values));
@@ -97,7 +105,7 @@ static void write_row(const jcal_hinge_result_t *r, float row[static JCAL_BATCH_
 
 static void write_rejected(const jcal_hinge_result_t *r, uint32_t *rejected_by)
 {
-    memcpy(rejected_by, r->rejected_by, sizeof(r->rejected_by));
+    memcpy(rejected_by, r->head.rejected_by, sizeof(r->head.rejected_by));
 }
 
 static int32_t run_stream(const jcal_hinge_config_t *config, const jcal_batch_input_t *in, jcal_batch_output_t *out)

@@ -91,10 +91,10 @@ static float *put(float *to, jcal_vec3_t v)
 
 static void write_row(const jcal_center_result_t *r, float *row)
 {
-    row[0] = (float)r->status;
-    row[1] = (float)r->reason;
-    row[2] = (float)r->weak;
-    row[3] = (float)r->hint;
+    row[0] = (float)r->head.status;
+    row[1] = (float)r->head.reason;
+    row[2] = (float)r->head.weak;
+    row[3] = (float)r->head.hint;
     float *at = put(put(row + 4, r->joint_to_sensor1_m), r->joint_to_sensor2_m);
     at[0] = r->uncertainty1_m;
     at[1] = r->uncertainty2_m;
@@ -142,7 +142,7 @@ int32_t jcal_batch_center_run(const jcal_batch_center_options_t *options, const 
         write_row(&result, rows + k * JCAL_BATCH_CENTER_COLUMNS);
     }
     get(engine, &result);
-    memcpy(rejected_by, result.rejected_by, sizeof(result.rejected_by));
+    memcpy(rejected_by, result.head.rejected_by, sizeof(result.head.rejected_by));
     free(storage);
     free(engine);
     return JCAL_BATCH_DONE;

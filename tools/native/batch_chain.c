@@ -59,7 +59,7 @@ static void push(jcal_chain_t *chain, const jcal_batch_chain_input_t *in, size_t
 
 static void write_row(const jcal_chain_result_t *r, float *row)
 {
-    const float head[4] = {(float)r->status, (float)r->reason, (float)r->weak, (float)r->hint};
+    const float head[4] = {(float)r->head.status, (float)r->head.reason, (float)r->head.weak, (float)r->head.hint};
     memcpy(row, head, sizeof head);
     for (int i = 0; i < JCAL_CHAIN_PLACES; i++) {
         row[4 + 3 * i] = r->place_m[i].x;

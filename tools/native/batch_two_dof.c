@@ -29,10 +29,10 @@ static jcal_quat_t quaternion_at(const float *v)
 static void write_row(const jcal_two_dof_result_t *r, float row[static JCAL_BATCH_TWO_DOF_COLUMNS])
 {
     const float values[JCAL_BATCH_TWO_DOF_COLUMNS] = {
-        (float)r->status,
-        (float)r->reason,
-        (float)r->weak,
-        (float)r->hint,
+        (float)r->head.status,
+        (float)r->head.reason,
+        (float)r->head.weak,
+        (float)r->head.hint,
         r->axis1.x,
         r->axis1.y,
         r->axis1.z,
@@ -81,7 +81,7 @@ int32_t jcal_batch_two_dof_run(const jcal_batch_two_dof_options_t *options, cons
         write_row(&result, rows + k * JCAL_BATCH_TWO_DOF_COLUMNS);
     }
     (void)jcal_two_dof_get(&engine, &result);
-    memcpy(rejected_by, result.rejected_by, sizeof(result.rejected_by));
+    memcpy(rejected_by, result.head.rejected_by, sizeof(result.head.rejected_by));
     return JCAL_BATCH_DONE;
 }
 
@@ -96,7 +96,7 @@ static void run_window(jcal_two_dof_window_t *engine, const jcal_batch_orientati
         write_row(&result, out->rows + k * JCAL_BATCH_TWO_DOF_COLUMNS);
     }
     (void)jcal_two_dof_window_get(engine, &result);
-    memcpy(out->rejected_by, result.rejected_by, sizeof(result.rejected_by));
+    memcpy(out->rejected_by, result.head.rejected_by, sizeof(result.head.rejected_by));
     size_t kept = engine->cfg.n_max;
     (void)jcal_two_dof_window_kept(engine, out->kept_us, &kept);
     out->kept_count = kept;

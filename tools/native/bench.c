@@ -94,7 +94,7 @@ static double recording_s(subject_t *self, const data_t *data)
     }
     get(self, &result);
     const double end_s = now_s();
-    return (result.samples == data->count) ? end_s - begin_s : -1.0;
+    return (result.head.samples == data->count) ? end_s - begin_s : -1.0;
 }
 
 static int compare(const void *a, const void *b)

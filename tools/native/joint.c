@@ -9,7 +9,7 @@
 
 static void write_row(const jcal_two_dof_result_t *result, float *row)
 {
-    const float values[JCAL_BATCH_JOINT_COLUMNS] = {(float)result->status,
+    const float values[JCAL_BATCH_JOINT_COLUMNS] = {(float)result->head.status,
                                                     result->axis1.x,
                                                     result->axis1.y,
                                                     result->axis1.z,

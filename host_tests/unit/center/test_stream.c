@@ -57,7 +57,7 @@ static double run_until_ready(jcal_center_t *self, const center_motion_t *m, dou
     for (uint32_t k = (uint32_t)(from_s * m->rate_hz); k < (uint32_t)(to_s * m->rate_hz); ++k) {
         const jcal_pair_t pair = center_sample(m, k);
         (void)jcal_center_update(self, &pair);
-        if (result_of(self).status == JCAL_READY) {
+        if (result_of(self).head.status == JCAL_READY) {
             return (double)k / m->rate_hz;
         }
     }
@@ -67,14 +67,14 @@ static double run_until_ready(jcal_center_t *self, const center_motion_t *m, dou
 static void assert_inside(const center_motion_t *m)
 {
     const jcal_center_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
     TEST_ASSERT_TRUE(center_error(r.joint_to_sensor1_m, m->r1) < (double)r.uncertainty1_m);
     TEST_ASSERT_TRUE(center_error(r.joint_to_sensor2_m, m->r2) < (double)r.uncertainty2_m);
     TEST_ASSERT_TRUE(r.uncertainty1_m <= config.max_bound_m * 1.2f);
     TEST_ASSERT_TRUE(r.uncertainty_weakest1_m <= r.uncertainty1_m);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.0f, jcal_vec3_norm(r.weakest_direction2));
-    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_NONE, r.weak);
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, r.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, r.head.reason);
     TEST_ASSERT_EQUAL_FLOAT(1.0f, r.progress1);
 }
 
@@ -192,10 +192,10 @@ static void orientations_are_needed_by_their_method_and_must_be_of_length_one(vo
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_push_oriented(&engine, &pair, NULL));
     attitudes.q2.w += 2.0f;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_center_push_oriented(&engine, &pair, &attitudes));
-    TEST_ASSERT_EQUAL_UINT32(1u, result_of(&engine).rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
+    TEST_ASSERT_EQUAL_UINT32(1u, result_of(&engine).head.rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
     attitudes.q2.w = NAN;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_center_push_oriented(&engine, &pair, &attitudes));
-    TEST_ASSERT_EQUAL_UINT32(2u, result_of(&engine).rejected);
+    TEST_ASSERT_EQUAL_UINT32(2u, result_of(&engine).head.rejected);
     attitudes = attitudes_of(&m, 1, 0.0);
     attitudes.q1.x -= 2.0f;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_center_push_oriented(&engine, &pair, &attitudes));
@@ -216,7 +216,7 @@ static void exchanged_sensors_give_the_exchanged_result(void)
     }
     const jcal_center_result_t a = result_of(&engine);
     const jcal_center_result_t b = result_of(&other);
-    TEST_ASSERT_EQUAL_INT(a.status, b.status);
+    TEST_ASSERT_EQUAL_INT(a.head.status, b.head.status);
     const double r1[3] = {(double)a.joint_to_sensor1_m.x, (double)a.joint_to_sensor1_m.y,
                           (double)a.joint_to_sensor1_m.z};
     const double r2[3] = {(double)a.joint_to_sensor2_m.x, (double)a.joint_to_sensor2_m.y,
@@ -246,12 +246,12 @@ static void motion_that_leaves_something_open_is_never_ready(void)
         m.base = 0.0;
         m.carried = 0.0;
         jcal_center_result_t r = never(&m, NEVER_S);
-        TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_MOTION, r.reason);
-        TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_SEGMENT1, r.hint);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_MOTION, r.head.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_SEGMENT1, r.head.hint);
         m.joint = 0.0;
         r = never(&m, NEVER_S);
         TEST_ASSERT_FALSE(r.has_center);
-        TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.head.reason);
         TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, r.uncertainty1_m);
     }
 }
@@ -262,8 +262,8 @@ static void along_a_hinge_nothing_is_known(void)
         center_motion_t m = center_lively(seed);
         m.dof = CENTER_HINGE;
         const jcal_center_result_t r = never(&m, HINGE_S);
-        TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, r.reason);
-        TEST_ASSERT_EQUAL_INT(JCAL_HINT_MORE_DIRECTIONS, r.hint);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, r.head.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_MORE_DIRECTIONS, r.head.hint);
         TEST_ASSERT_TRUE(r.uncertainty_weakest1_m > 0.1f);
         const jcal_vec3_t axis1 = pose_axis(pose_conj(pose_any(7 * seed + 1)), 2);
         TEST_ASSERT_TRUE(fabsf(jcal_vec3_dot(axis1, r.weakest_direction1)) > 0.99f);
@@ -281,7 +281,7 @@ static void with_its_axis_known_a_hinge_has_a_centre_next_to_the_sensors(void)
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
     run(&engine, &m, 0.0, 40.0);
     const jcal_center_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
     TEST_ASSERT_TRUE(r.uncertainty_weakest1_m > 0.1f);
     const float along = jcal_vec3_dot(config.hinge_axis1, r.joint_to_sensor1_m) +
                         jcal_vec3_dot(config.hinge_axis2, r.joint_to_sensor2_m);
@@ -313,9 +313,9 @@ static void sensors_that_share_no_joint_do_not_fit(void)
             jcal_pair_t pair = center_sample(&a, k);
             pair.imu2 = center_imu(&b, 2, k);
             (void)jcal_center_update(&engine, &pair);
-            TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+            TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
         }
-        TEST_ASSERT_EQUAL_INT(JCAL_REASON_DOES_NOT_FIT, result_of(&engine).reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_DOES_NOT_FIT, result_of(&engine).head.reason);
     }
 }
 
@@ -330,7 +330,7 @@ static void noise_and_wrong_units_are_never_ready(void)
             values[i / 3u][i % 3u] += (float)center_noise(k, i);
         }
         (void)jcal_center_update(&engine, &pair);
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     }
     setUp();
     const center_motion_t m = center_lively(1);
@@ -339,10 +339,10 @@ static void noise_and_wrong_units_are_never_ready(void)
         pair.imu1.gyr_rad_s = jcal_vec3_scale(pair.imu1.gyr_rad_s, 57.3f);
         pair.imu2.gyr_rad_s = jcal_vec3_scale(pair.imu2.gyr_rad_s, 57.3f);
         (void)jcal_center_update(&engine, &pair);
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     }
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_WRONG_UNITS_GYR, result_of(&engine).reason);
-    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, result_of(&engine).hint);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_WRONG_UNITS_GYR, result_of(&engine).head.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, result_of(&engine).head.hint);
 }
 
 static void a_slip_is_noticed_and_calibrated_anew(void)
@@ -364,7 +364,7 @@ static void a_slip_is_noticed_and_calibrated_anew(void)
         center_turn(slip, a, out);
         pair.imu1.acc_m_s2 = jcal_vec3((float)out[0], (float)out[1], (float)out[2]);
         (void)jcal_center_update(&engine, &pair);
-        const jcal_calibration_t status = result_of(&engine).status;
+        const jcal_calibration_t status = result_of(&engine).head.status;
         moved_s = ((moved_s < 0.0) && (status == JCAL_MOVED)) ? (0.02 * (double)(k - 1000u)) : moved_s;
         again_s =
             ((moved_s > 0.0) && (again_s < 0.0) && (status == JCAL_READY)) ? (0.02 * (double)(k - 1000u)) : again_s;
@@ -389,7 +389,7 @@ static void rest_after_ready_changes_nothing(void)
     for (uint32_t k = 0; k < rest; ++k) {
         const jcal_pair_t pair = center_sample(&still, 1250u + k);
         (void)jcal_center_update(&engine, &pair);
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_MOVED, result_of(&engine).status);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_MOVED, result_of(&engine).head.status);
     }
     const jcal_center_result_t r = result_of(&engine);
     TEST_ASSERT_TRUE(center_error(r.joint_to_sensor1_m, m.r1) < (double)r.uncertainty1_m);
@@ -409,9 +409,9 @@ static void shifting_all_times_changes_no_bit(void)
     }
     jcal_center_result_t a = result_of(&engine);
     jcal_center_result_t b = result_of(&later);
-    TEST_ASSERT_TRUE(a.t_us + UINT64_C(0x123456789ABCDEF) == b.t_us);
-    a.t_us = 0u;
-    b.t_us = 0u;
+    TEST_ASSERT_TRUE(a.head.t_us + UINT64_C(0x123456789ABCDEF) == b.head.t_us);
+    a.head.t_us = 0u;
+    b.head.t_us = 0u;
     TEST_ASSERT_EQUAL_MEMORY(&a, &b, sizeof a);
 }
 
@@ -446,7 +446,7 @@ static void a_full_inbox_says_so(void)
     }
     const jcal_pair_t pair = center_sample(&m, JCAL_INBOX_CAPACITY);
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_FULL, jcal_center_push(&engine, &pair));
-    TEST_ASSERT_EQUAL_UINT32(JCAL_INBOX_CAPACITY, result_of(&engine).samples);
+    TEST_ASSERT_EQUAL_UINT32(JCAL_INBOX_CAPACITY, result_of(&engine).head.samples);
 }
 
 static void null_is_refused(void)
@@ -740,9 +740,9 @@ static void rejected_samples_are_counted_and_break_the_chain(void)
         }
     }
     const jcal_center_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_UINT32(38u, r.rejected);
-    TEST_ASSERT_EQUAL_UINT32(38u, r.rejected_by[JCAL_REJECT_NOT_FINITE]);
-    TEST_ASSERT_EQUAL_UINT32(1500u, r.samples);
+    TEST_ASSERT_EQUAL_UINT32(38u, r.head.rejected);
+    TEST_ASSERT_EQUAL_UINT32(38u, r.head.rejected_by[JCAL_REJECT_NOT_FINITE]);
+    TEST_ASSERT_EQUAL_UINT32(1500u, r.head.samples);
     assert_inside(&m);
 }
 

@@ -62,8 +62,8 @@ static double error_of(const center_motion_t *m)
 static void assert_inside(const center_motion_t *m)
 {
     const jcal_center_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
-    TEST_ASSERT_EQUAL_INT(JCAL_ENGINE_WINDOW, r.engine);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_ENGINE_WINDOW, r.head.engine);
     TEST_ASSERT_TRUE(center_error(r.joint_to_sensor1_m, m->r1) < (double)r.uncertainty1_m);
     TEST_ASSERT_TRUE(center_error(r.joint_to_sensor2_m, m->r2) < (double)r.uncertainty2_m);
 }
@@ -125,12 +125,12 @@ static void a_slip_after_ready_is_noticed(void)
     config.center.max_bound_m = 0.02f;
     begin();
     run(&m, 0.0, 12.0);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     m.r1[1] += 0.08;
     bool moved = false;
     for (int k = 0; k < 50; ++k) {
         run(&m, 12.0 + 0.1 * k, 12.1 + 0.1 * k);
-        moved = moved || (result_of(&engine).status == JCAL_MOVED);
+        moved = moved || (result_of(&engine).head.status == JCAL_MOVED);
     }
     TEST_ASSERT_TRUE(moved);
 }
@@ -160,7 +160,7 @@ static void motion_that_leaves_something_open_is_never_ready(void)
         begin();
         for (int k = 0; k < 40; ++k) {
             run(&m, 0.4 * k, 0.4 * (k + 1));
-            TEST_ASSERT_TRUE(result_of(&engine).status != JCAL_READY);
+            TEST_ASSERT_TRUE(result_of(&engine).head.status != JCAL_READY);
         }
     }
 }
@@ -172,7 +172,7 @@ static void slow_samples_are_left_out_if_asked_for(void)
     begin();
     run(&m, 0.0, 5.0);
     TEST_ASSERT_FALSE(result_of(&engine).has_center);
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, result_of(&engine).reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, result_of(&engine).head.reason);
 }
 
 /* The sample that came `age` after the oldest of a full window. */
@@ -343,7 +343,7 @@ static void a_copy_goes_on_alike(void)
     TEST_ASSERT_EQUAL_MEMORY(&a, &b, sizeof a);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_window_reset(&engine));
     TEST_ASSERT_FALSE(result_of(&engine).has_center);
-    TEST_ASSERT_EQUAL_UINT32(0u, result_of(&engine).samples);
+    TEST_ASSERT_EQUAL_UINT32(0u, result_of(&engine).head.samples);
 }
 
 static void wrong_arguments_are_refused(void)

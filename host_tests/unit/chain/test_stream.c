@@ -65,8 +65,8 @@ static double error_of(const chain_motion_t *m, const jcal_chain_result_t *r, in
 static void assert_inside(const chain_motion_t *m)
 {
     const jcal_chain_result_t r = result();
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
-    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_NONE, r.weak);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
     for (int i = 0; i < JCAL_CHAIN_PLACES; ++i) {
         TEST_ASSERT_TRUE(error_of(m, &r, i) < (double)r.uncertainty_m[i]);
     }
@@ -103,8 +103,8 @@ static void a_hinge_for_a_knee_needs_its_axis(void)
     m.is_hinge = true;
     run(&m, 0.0, 30.0);
     jcal_chain_result_t r = result();
-    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.status);
-    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_CENTER2, r.weak);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_CENTER2, r.head.weak);
     TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, r.uncertainty_segment_m);
     const pose_quat_t mounts[2] = {pose_any(7 * m.hip.seed + 2), pose_any(7 * m.hip.seed + 3)};
     const double z[3] = {0.0, 0.0, 1.0};
@@ -117,7 +117,7 @@ static void a_hinge_for_a_knee_needs_its_axis(void)
     begin();
     run(&m, 0.0, 30.0);
     r = result();
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
     const jcal_vec3_t found[2] = {r.place_m[JCAL_CHAIN_KNEE_TO_THIGH], r.place_m[JCAL_CHAIN_KNEE_TO_SHANK]};
     const jcal_vec3_t known[2] = {config.knee_axis2, config.knee_axis3};
     for (int i = 0; i < 2; ++i) {
@@ -153,11 +153,11 @@ static void a_length_that_contradicts_the_data_is_left_out_and_never_ready(void)
     begin();
     for (int k = 0; k < 60; ++k) {
         run(&m, 0.5 * k, 0.5 * (k + 1));
-        TEST_ASSERT_TRUE(result().status != JCAL_READY);
+        TEST_ASSERT_TRUE(result().head.status != JCAL_READY);
     }
     const jcal_chain_result_t r = result();
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_DOES_NOT_FIT, r.reason);
-    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.hint);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_DOES_NOT_FIT, r.head.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
     TEST_ASSERT_TRUE(fabs((double)r.segment_length_m - length) < (double)r.uncertainty_segment_m);
     for (int i = 0; i < JCAL_CHAIN_PLACES; ++i) {
         TEST_ASSERT_TRUE(error_of(&m, &r, i) < (double)r.uncertainty_m[i]);
@@ -223,14 +223,14 @@ static void a_joint_that_does_not_fit_is_not_made_ready_by_small_bounds(void)
 {
     const chain_motion_t m = chain_lively(2);
     run(&m, 0.0, 25.0);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result().status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result().head.status);
     engine.hip.work.verdict.status = (uint8_t)JCAL_COLLECTING;
     engine.hip.work.verdict.reason = (uint8_t)JCAL_REASON_DOES_NOT_FIT;
-    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result().status);
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_DOES_NOT_FIT, result().reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result().head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_DOES_NOT_FIT, result().head.reason);
     engine.hip.work.verdict.reason =
         (uint8_t)JCAL_REASON_UNCERTAIN; /* then what ties both may have made it small enough */
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result().status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result().head.status);
 }
 
 /* Against the least-squares solution of two unknowns, by hand: x0 of variance 4, x1 of variance 1, x0 - x1 = 3 of variance 4. */
@@ -473,9 +473,9 @@ static void say(jcal_center_t *joint, jcal_calibration_t status, jcal_reason_t r
 static void assert_said(jcal_calibration_t status, jcal_weak_t weak, jcal_reason_t reason)
 {
     const jcal_chain_result_t r = result();
-    TEST_ASSERT_EQUAL_INT(status, r.status);
-    TEST_ASSERT_EQUAL_INT(weak, r.weak);
-    TEST_ASSERT_EQUAL_INT(reason, r.reason);
+    TEST_ASSERT_EQUAL_INT(status, r.head.status);
+    TEST_ASSERT_EQUAL_INT(weak, r.head.weak);
+    TEST_ASSERT_EQUAL_INT(reason, r.head.reason);
 }
 
 static void the_weaker_joint_is_named(void)
@@ -522,21 +522,21 @@ static void a_stiff_hip_is_never_ready(void)
     m.hip.dof = CENTER_STIFF;
     for (int k = 0; k < 10; ++k) {
         run(&m, 0.1 * NEVER_S * k, 0.1 * NEVER_S * (k + 1));
-        TEST_ASSERT_TRUE(result().status != JCAL_READY);
+        TEST_ASSERT_TRUE(result().head.status != JCAL_READY);
     }
-    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_CENTER1, result().weak);
+    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_CENTER1, result().head.weak);
 }
 
 static void a_slip_of_the_shanks_sensor_is_noticed(void)
 {
     chain_motion_t m = chain_lively(0);
     run(&m, 0.0, 25.0);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result().status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result().head.status);
     m.knee_to_shank[0] += 0.1;
     bool moved = false;
     for (int k = 0; k < 50; ++k) {
         run(&m, 25.0 + 0.1 * k, 25.1 + 0.1 * k);
-        moved = moved || (result().status == JCAL_MOVED);
+        moved = moved || (result().head.status == JCAL_MOVED);
     }
     TEST_ASSERT_TRUE(moved);
     TEST_ASSERT_EQUAL_INT(JCAL_READY, result().joint_status[0]);
@@ -557,10 +557,10 @@ static void rejected_samples_are_counted_once(void)
     triple.imu3.acc_m_s2.x = 1e9f;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_chain_push(&engine, &triple, NULL));
     const jcal_chain_result_t r = result();
-    TEST_ASSERT_EQUAL_UINT32(103u, r.samples);
-    TEST_ASSERT_EQUAL_UINT32(3u, r.rejected);
-    TEST_ASSERT_EQUAL_UINT32(2u, r.rejected_by[JCAL_REJECT_NOT_FINITE]);
-    TEST_ASSERT_EQUAL_UINT32(1u, r.rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
+    TEST_ASSERT_EQUAL_UINT32(103u, r.head.samples);
+    TEST_ASSERT_EQUAL_UINT32(3u, r.head.rejected);
+    TEST_ASSERT_EQUAL_UINT32(2u, r.head.rejected_by[JCAL_REJECT_NOT_FINITE]);
+    TEST_ASSERT_EQUAL_UINT32(1u, r.head.rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
 }
 
 static void every_field_out_of_its_range_is_named(void)
@@ -629,9 +629,9 @@ static void reset_forgets_and_a_full_inbox_says_so(void)
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chain_reset(&engine));
     const jcal_chain_result_t r = result();
     TEST_ASSERT_FALSE(r.has_places);
-    TEST_ASSERT_EQUAL_UINT32(0u, r.samples);
+    TEST_ASSERT_EQUAL_UINT32(0u, r.head.samples);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, r.segment_length_m);
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.head.reason);
     jcal_status_t status = JCAL_OK;
     for (uint32_t k = 0; (k < 20u) && (status == JCAL_OK); ++k) {
         const jcal_triple_t triple = chain_sample(&m, k);

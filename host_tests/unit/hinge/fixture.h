@@ -46,7 +46,7 @@ static inline void assert_sane(const jcal_hinge_result_t *r)
                       (r->progress_axis1 <= 1.0f) && (r->progress_axis2 >= 0.0f) && (r->progress_axis2 <= 1.0f) &&
                       (r->progress_sign >= 0.0f) && (r->progress_sign <= 1.0f);
     TEST_ASSERT_TRUE(sane);
-    TEST_ASSERT_TRUE((r->status == JCAL_READY) == (r->reason == JCAL_REASON_NONE));
+    TEST_ASSERT_TRUE((r->head.status == JCAL_READY) == (r->head.reason == JCAL_REASON_NONE));
 }
 
 static inline void run(jcal_hinge_t *self, const motion_t *motion, uint32_t begin, uint32_t end)
@@ -68,13 +68,13 @@ static inline void assert_same_result(const jcal_hinge_t *a, const jcal_hinge_t 
     TEST_ASSERT_EQUAL_MEMORY(&x.uncertainty2_rad, &y.uncertainty2_rad, sizeof x.uncertainty2_rad);
     TEST_ASSERT_EQUAL_MEMORY(&x.sign_margin, &y.sign_margin, sizeof x.sign_margin);
     TEST_ASSERT_EQUAL_MEMORY(&x.progress_sign, &y.progress_sign, sizeof x.progress_sign);
-    TEST_ASSERT_EQUAL_INT(x.status, y.status);
-    TEST_ASSERT_EQUAL_INT(x.reason, y.reason);
-    TEST_ASSERT_EQUAL_INT(x.weak, y.weak);
-    TEST_ASSERT_EQUAL_INT(x.hint, y.hint);
+    TEST_ASSERT_EQUAL_INT(x.head.status, y.head.status);
+    TEST_ASSERT_EQUAL_INT(x.head.reason, y.head.reason);
+    TEST_ASSERT_EQUAL_INT(x.head.weak, y.head.weak);
+    TEST_ASSERT_EQUAL_INT(x.head.hint, y.head.hint);
     TEST_ASSERT_EQUAL_INT(x.has_axes, y.has_axes);
-    TEST_ASSERT_EQUAL_UINT32(x.samples, y.samples);
-    TEST_ASSERT_EQUAL_UINT32(x.rejected, y.rejected);
+    TEST_ASSERT_EQUAL_UINT32(x.head.samples, y.head.samples);
+    TEST_ASSERT_EQUAL_UINT32(x.head.rejected, y.head.rejected);
 }
 
 /* And all sums behind it, so that the future is the same too. */

@@ -92,23 +92,23 @@ static void null_arguments_are_refused_everywhere(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_get(NULL, &result));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_get(&engine, NULL));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_reset(NULL));
-    TEST_ASSERT_EQUAL_UINT32(0, result_of(&engine).samples);
+    TEST_ASSERT_EQUAL_UINT32(0, result_of(&engine).head.samples);
 }
 
 static void before_any_sample_nothing_is_known_and_that_is_said(void)
 {
     const jcal_hinge_result_t r = result_of(&engine);
     assert_sane(&r);
-    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.status);
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.reason);
-    TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_JOINT, r.hint);
-    TEST_ASSERT_EQUAL_INT(JCAL_ENGINE_STREAM, r.engine);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.head.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_JOINT, r.head.hint);
+    TEST_ASSERT_EQUAL_INT(JCAL_ENGINE_STREAM, r.head.engine);
     TEST_ASSERT_FALSE(r.has_axes);
     TEST_ASSERT_FALSE(r.paper_accepted);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_vec3_norm(r.axis1) + jcal_vec3_norm(r.axis2));
     TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, r.uncertainty1_rad);
     TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, r.uncertainty2_rad);
-    TEST_ASSERT_TRUE(r.t_us == 0u);
+    TEST_ASSERT_TRUE(r.head.t_us == 0u);
     TEST_ASSERT_EQUAL_INT(JCAL_IDLE, jcal_hinge_step(&engine));
 }
 
@@ -130,9 +130,9 @@ static void nan_and_infinity_are_rejected_and_counted_wherever_they_stand(void)
         }
     }
     const jcal_hinge_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_UINT32(100 + count, r.samples);
-    TEST_ASSERT_EQUAL_UINT32(count, r.rejected);
-    TEST_ASSERT_EQUAL_UINT32(count, r.rejected_by[JCAL_REJECT_NOT_FINITE]);
+    TEST_ASSERT_EQUAL_UINT32(100 + count, r.head.samples);
+    TEST_ASSERT_EQUAL_UINT32(count, r.head.rejected);
+    TEST_ASSERT_EQUAL_UINT32(count, r.head.rejected_by[JCAL_REJECT_NOT_FINITE]);
     TEST_ASSERT_EQUAL_MEMORY(&before.moments, &engine.moments, sizeof engine.moments);
 }
 
@@ -152,8 +152,8 @@ static void a_full_inbox_is_an_error_and_loses_nothing(void)
     }
     run(&other, &motion, 0, JCAL_INBOX_CAPACITY + 1u);
     assert_same_state(&engine, &other);
-    TEST_ASSERT_TRUE(result_of(&engine).t_us == next.t_us);
-    TEST_ASSERT_EQUAL_UINT32(JCAL_INBOX_CAPACITY + 1u, result_of(&engine).samples);
+    TEST_ASSERT_TRUE(result_of(&engine).head.t_us == next.t_us);
+    TEST_ASSERT_EQUAL_UINT32(JCAL_INBOX_CAPACITY + 1u, result_of(&engine).head.samples);
 }
 
 static void update_makes_room_in_a_full_inbox(void)

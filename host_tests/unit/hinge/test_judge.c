@@ -15,7 +15,7 @@ static void make_ready(void)
 {
     const motion_t motion = motion_lively(9);
     run(&engine, &motion, 0, RUN);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
 }
 
 static void judge_several_times(void)
@@ -29,9 +29,9 @@ static void assert_verdict(jcal_calibration_t status, jcal_reason_t reason, jcal
 {
     judge_several_times();
     const jcal_hinge_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_INT(reason, r.reason);
-    TEST_ASSERT_EQUAL_INT(status, r.status);
-    TEST_ASSERT_EQUAL_INT(hint, r.hint);
+    TEST_ASSERT_EQUAL_INT(reason, r.head.reason);
+    TEST_ASSERT_EQUAL_INT(status, r.head.status);
+    TEST_ASSERT_EQUAL_INT(hint, r.head.hint);
 }
 
 static bool pairing_is_same(void)
@@ -128,7 +128,7 @@ static void until_the_other_pairing_was_looked_for_the_sign_stays_open(void)
     engine.search.has_flip = false;
     engine.search.rounds = 0;
     assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_SIGN_OPEN, JCAL_HINT_TILT_AXIS);
-    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_SIGN, result_of(&engine).weak);
+    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_SIGN, result_of(&engine).head.weak);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, result_of(&engine).sign_margin);
     engine.search.rounds = 1; /* looked for and not found: then it is worse than where axis 2 is turned round */
     assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
@@ -163,7 +163,7 @@ static void the_pairing_takes_evidence_of_seven_and_a_ratio_of_1_3(void)
     TEST_ASSERT_EQUAL_FLOAT(1.0f, result_of(&engine).progress_sign);
     rates_alone_say(9.0f, 1.35f); /* 6.75 */
     assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_SIGN_OPEN, JCAL_HINT_TILT_AXIS);
-    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_SIGN, result_of(&engine).weak);
+    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_SIGN, result_of(&engine).head.weak);
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 22.5f * logf(1.35f) / 7.0f, result_of(&engine).progress_sign);
     rates_alone_say(20.0f, 1.28f); /* 12.3, but a ratio that a wrong weight alone would make */
     assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_SIGN_OPEN, JCAL_HINT_TILT_AXIS);
@@ -203,8 +203,8 @@ static void evidence_against_the_pairing_turns_it_round(void)
     TEST_ASSERT_TRUE(engine.search.has_flip);
     TEST_ASSERT_EQUAL_MEMORY(&before.axis2.j, &engine.search.flip.j2, sizeof before.axis2.j);
     const jcal_hinge_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.status);
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.head.reason);
     TEST_ASSERT_EQUAL_INT(0, engine.agreed);
 }
 
@@ -259,7 +259,7 @@ static void residuals_of_a_third_of_the_rate_of_the_joint_do_not_fit(void)
     assert_verdict(JCAL_COLLECTING, JCAL_REASON_DOES_NOT_FIT, JCAL_HINT_CHECK_SENSORS);
     set_fit(0.365f);
     judge_several_times();
-    TEST_ASSERT_NOT_EQUAL(JCAL_REASON_DOES_NOT_FIT, result_of(&engine).reason);
+    TEST_ASSERT_NOT_EQUAL(JCAL_REASON_DOES_NOT_FIT, result_of(&engine).head.reason);
 }
 
 static void a_bound_above_the_limit_names_the_axis(void)
@@ -272,7 +272,7 @@ static void a_bound_above_the_limit_names_the_axis(void)
         assert_verdict(JCAL_COLLECTING, JCAL_REASON_UNCERTAIN,
                        (axis == 0u) ? JCAL_HINT_MOVE_SEGMENT1 : JCAL_HINT_MOVE_SEGMENT2);
         const jcal_hinge_result_t r = result_of(&engine);
-        TEST_ASSERT_EQUAL_INT((axis == 0u) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2, r.weak);
+        TEST_ASSERT_EQUAL_INT((axis == 0u) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2, r.head.weak);
         const float bound = (axis == 0u) ? r.uncertainty1_rad : r.uncertainty2_rad;
         TEST_ASSERT_TRUE(bound > engine.cfg.max_bound_rad);
         TEST_ASSERT_EQUAL_FLOAT(engine.cfg.max_bound_rad / bound, (axis == 0u) ? r.progress_axis1 : r.progress_axis2);
@@ -288,8 +288,8 @@ static void entering_ready_takes_a_little_more_than_staying_there(void)
     assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
     engine.verdict.status = (uint8_t)JCAL_COLLECTING;
     judge_several_times();
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, result_of(&engine).reason);
-    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, result_of(&engine).head.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).head.status);
     engine.cfg.max_bound_rad *= 0.99f / 0.97f; /* 97 % */
     assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
 }
@@ -303,11 +303,11 @@ static void ready_takes_six_judgements_in_a_row_that_agree(void)
     engine.excitation = excitation;
     for (int k = 0; k < 5; ++k) {
         jcal_hinge_judge(&engine);
-        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).status);
-        TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, result_of(&engine).reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).head.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, result_of(&engine).head.reason);
     }
     jcal_hinge_judge(&engine);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
 }
 
 static void assert_nothing_known(jcal_reason_t reason, jcal_hint_t hint)
@@ -315,7 +315,7 @@ static void assert_nothing_known(jcal_reason_t reason, jcal_hint_t hint)
     assert_verdict(JCAL_COLLECTING, reason, hint);
     TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, result_of(&engine).uncertainty1_rad);
     TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, result_of(&engine).uncertainty2_rad);
-    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_AXIS1, result_of(&engine).weak);
+    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_AXIS1, result_of(&engine).head.weak);
 }
 
 /* Sums of the rates of which, at the estimate, 16 remain; without axes 36 + `explained`. */

@@ -74,13 +74,13 @@ static void hours_of_motion_keep_the_sums_bounded_and_the_axes_right(void)
             assert_bounded(&engine);
             assert_sane(&r);
             assert_axes(&r, &motion);
-            TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
+            TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
         }
     }
     /* Halved at 3600, and again each time that 1800 have come in; the last may still be on the way. */
     TEST_ASSERT_TRUE(squares > 1e4);
     TEST_ASSERT_TRUE((double)halvings >= floor((squares / 1800.0) - 2.0));
-    TEST_ASSERT_EQUAL_UINT32(samples, result_of(&engine).samples);
+    TEST_ASSERT_EQUAL_UINT32(samples, result_of(&engine).head.samples);
 }
 
 static void accelerometer_sums_are_bounded_too(void)
@@ -123,7 +123,7 @@ static void rest_for(uint32_t mounting, double hours, double noise1_rad_s, doubl
     motion_t motion = motion_lively(mounting);
     motion.rate_hz = 25.0;
     run(&engine, &motion, 0, 1000);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     motion_t rest = motion;
     rest.speed = 0.0;
     rest.joint_speed = 0.0;
@@ -134,7 +134,7 @@ static void rest_for(uint32_t mounting, double hours, double noise1_rad_s, doubl
         run(&engine, &rest, k, k + 1);
         const jcal_hinge_result_t r = result_of(&engine);
         assert_within_bounds(&r, &motion);
-        TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
     }
     const jcal_hinge_result_t r = result_of(&engine);
     assert_sane(&r);
@@ -143,7 +143,7 @@ static void rest_for(uint32_t mounting, double hours, double noise1_rad_s, doubl
     run(&engine, &motion, end, end + 1000u);
     const jcal_hinge_result_t after = result_of(&engine);
     assert_axes(&after, &motion);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, after.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, after.head.status);
 }
 
 static void after_an_hour_of_rest_the_calibration_is_still_there(void)

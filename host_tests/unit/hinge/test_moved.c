@@ -40,7 +40,7 @@ static uint32_t until(const motion_t *motion, uint32_t begin, uint32_t end, jcal
 {
     for (uint32_t k = begin; k < end; ++k) {
         run(&engine, motion, k, k + 1u);
-        if (result_of(&engine).status == wanted) {
+        if (result_of(&engine).head.status == wanted) {
             return k;
         }
     }
@@ -52,7 +52,7 @@ static void get_ready(const motion_t *motion)
 {
     setUp();
     run(&engine, motion, 0, RUN);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
 }
 
 static void a_slip_is_noticed_and_the_new_axes_are_found(void)
@@ -82,7 +82,7 @@ static void a_small_slip_behind_noise_is_noticed_too(void)
         motion.gyr_noise_rad_s = 0.1;
         setUp();
         run(&engine, &motion, 0, 3u * RUN);
-        TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
         const motion_t after = slipped(&motion, sensor, across(&motion, sensor), 9.0 * (double)JCAL_RAD_PER_DEG);
         TEST_ASSERT_TRUE(until(&after, 3u * RUN, (3u * RUN) + SOON, JCAL_MOVED) < ((3u * RUN) + SOON));
     }
@@ -94,7 +94,7 @@ static void a_turn_about_the_axis_changes_nothing(void)
     get_ready(&motion);
     const motion_t after = slipped(&motion, 1, motion_axis(&motion, 1), 0.7);
     TEST_ASSERT_EQUAL_UINT32(2u * RUN, until(&after, RUN, 2u * RUN, JCAL_MOVED));
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
 }
 
 static void livelier_and_noisier_motion_is_no_slip(void)
@@ -104,7 +104,7 @@ static void livelier_and_noisier_motion_is_no_slip(void)
     motion.joint_speed = 0.5;
     setUp();
     run(&engine, &motion, 0, 2u * RUN);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     motion.speed = 2.0;
     motion.joint_speed = 2.0;
     motion.gyr_noise_rad_s = 0.04;
@@ -122,7 +122,7 @@ static void rest_and_a_stiff_joint_are_no_slip(void)
     TEST_ASSERT_EQUAL_UINT32(RUN + (2u * REST), until(&other, RUN + REST, RUN + (2u * REST), JCAL_MOVED));
     TEST_ASSERT_EQUAL_UINT32((2u * RUN) + (2u * REST),
                              until(&motion, RUN + (2u * REST), (2u * RUN) + (2u * REST), JCAL_MOVED));
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
 }
 
 /* The accelerometers' residual follows the motion; however much it is made to weigh, it is no slip. */
@@ -150,7 +150,7 @@ static void a_knock_is_no_slip(void)
             pair.imu2.gyr_rad_s.z -= ((k % 3u) == 0u) ? 1.0f : -0.5f;
         }
         (void)jcal_hinge_update(&engine, &pair);
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_MOVED, result_of(&engine).status);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_MOVED, result_of(&engine).head.status);
     }
 }
 

@@ -31,10 +31,10 @@ static jcal_reason_t never_ready(motion_t motion, change_t change)
             TEST_ASSERT_TRUE(jcal_hinge_update(&engine, &pair) >= JCAL_OK);
             r = result_of(&engine);
             assert_sane(&r);
-            TEST_ASSERT_NOT_EQUAL(JCAL_READY, r.status);
+            TEST_ASSERT_NOT_EQUAL(JCAL_READY, r.head.status);
         }
     }
-    return r.reason;
+    return r.head.reason;
 }
 
 static void a_stiff_joint_is_never_ready(void)
@@ -42,7 +42,7 @@ static void a_stiff_joint_is_never_ready(void)
     motion_t motion = motion_lively(0);
     motion.joint_speed = 0.0;
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_MOTION, never_ready(motion, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_JOINT, result_of(&engine).hint);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_JOINT, result_of(&engine).head.hint);
 }
 
 static void both_segments_at_rest_are_never_ready(void)
@@ -78,13 +78,13 @@ static void assert_open_axis(change_t change, jcal_weak_t weak, jcal_hint_t hint
         const jcal_pair_t pair = change(&motion, k);
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_update(&engine, &pair));
         const jcal_hinge_result_t r = result_of(&engine);
-        if (r.reason == JCAL_REASON_UNCERTAIN) {
+        if (r.head.reason == JCAL_REASON_UNCERTAIN) {
             const float open = (weak == JCAL_WEAK_AXIS1) ? r.uncertainty1_rad : r.uncertainty2_rad;
             const float known = (weak == JCAL_WEAK_AXIS1) ? r.uncertainty2_rad : r.uncertainty1_rad;
             TEST_ASSERT_TRUE(open >= known);
             if (open > known) {
-                TEST_ASSERT_EQUAL_INT(weak, r.weak);
-                TEST_ASSERT_EQUAL_INT(hint, r.hint);
+                TEST_ASSERT_EQUAL_INT(weak, r.head.weak);
+                TEST_ASSERT_EQUAL_INT(hint, r.head.hint);
                 uncertain += (known < 5.0f * JCAL_RAD_PER_DEG) ? 1u : 0u; /* planar motion: wide, but a bound */
             }
         }
@@ -111,7 +111,7 @@ static jcal_pair_t zeros(const motion_t *motion, uint32_t k)
 static void zeros_are_never_ready(void)
 {
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_WRONG_UNITS_ACC, never_ready(motion_lively(0), zeros));
-    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, result_of(&engine).hint);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, result_of(&engine).head.hint);
 }
 
 static jcal_pair_t frozen(const motion_t *motion, uint32_t k)
@@ -124,7 +124,7 @@ static jcal_pair_t frozen(const motion_t *motion, uint32_t k)
 static void a_frozen_sensor_is_never_ready(void)
 {
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, never_ready(motion_lively(0), frozen));
-    TEST_ASSERT_TRUE(result_of(&engine).rejected_by[JCAL_REJECT_FROZEN] > RUN);
+    TEST_ASSERT_TRUE(result_of(&engine).head.rejected_by[JCAL_REJECT_FROZEN] > RUN);
 }
 
 static jcal_pair_t white_noise(const motion_t *motion, uint32_t k)
@@ -142,7 +142,7 @@ static jcal_pair_t white_noise(const motion_t *motion, uint32_t k)
 static void white_noise_is_never_ready(void)
 {
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_DOES_NOT_FIT, never_ready(motion_lively(0), white_noise));
-    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, result_of(&engine).hint);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, result_of(&engine).head.hint);
 }
 
 static jcal_pair_t degrees(const motion_t *motion, uint32_t k)
@@ -159,7 +159,7 @@ static void rates_in_degrees_are_never_ready_and_named(void)
     motion.speed = 0.25; /* slow enough that 36 is hardly ever reached: the size of the rates alone does not show it */
     motion.joint_speed = 0.2;
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_WRONG_UNITS_GYR, never_ready(motion, degrees));
-    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, result_of(&engine).hint);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, result_of(&engine).head.hint);
 }
 
 static jcal_pair_t in_g(const motion_t *motion, uint32_t k)
@@ -225,7 +225,7 @@ static jcal_pair_t clipped(const motion_t *motion, uint32_t k)
 static void rates_clipped_at_a_quarter_of_the_range_are_never_ready(void)
 {
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, never_ready(motion_lively(0), clipped));
-    TEST_ASSERT_TRUE(result_of(&engine).rejected_by[JCAL_REJECT_SATURATED] > 50u);
+    TEST_ASSERT_TRUE(result_of(&engine).head.rejected_by[JCAL_REJECT_SATURATED] > 50u);
 }
 
 /* After ready, the given samples instead of good ones. */
@@ -234,23 +234,23 @@ static void assert_leaves_ready(change_t change, uint32_t within, jcal_reason_t 
     const motion_t motion = motion_lively(3);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_reset(&engine));
     run(&engine, &motion, 0, RUN);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     for (uint32_t k = RUN; k < RUN + within; ++k) {
         const jcal_pair_t pair = change(&motion, k);
         TEST_ASSERT_TRUE(jcal_hinge_update(&engine, &pair) >= JCAL_OK);
     }
     const jcal_hinge_result_t r = result_of(&engine);
     assert_sane(&r);
-    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.status);
-    TEST_ASSERT_EQUAL_INT(reason, r.reason);
-    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.hint);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+    TEST_ASSERT_EQUAL_INT(reason, r.head.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
     /* It comes back with the sensor: what was learnt is still there. */
     run(&engine, &motion, RUN + within, RUN + within + 1u);
     for (uint32_t k = RUN + within + 1u; k < (2u * RUN) + within; ++k) {
         const jcal_pair_t pair = motion_sample(&motion, k);
         TEST_ASSERT_TRUE(jcal_hinge_update(&engine, &pair) >= JCAL_OK);
     }
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
 }
 
 static void a_sensor_that_freezes_after_ready_leaves_ready_within_two_seconds(void)
@@ -269,13 +269,13 @@ static void a_sensor_that_loses_its_accelerometer_leaves_ready(void)
 {
     const motion_t motion = motion_lively(3);
     run(&engine, &motion, 0, RUN);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     for (uint32_t k = RUN; k < RUN + 100u; ++k) {
         const jcal_pair_t pair = failed_acc(&motion, k);
         TEST_ASSERT_TRUE(jcal_hinge_update(&engine, &pair) >= JCAL_OK);
     }
-    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).status);
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_WRONG_UNITS_ACC, result_of(&engine).reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_WRONG_UNITS_ACC, result_of(&engine).head.reason);
 }
 
 int main(void)

@@ -12,16 +12,16 @@ static void axes_and_pairing_are_recovered_for_any_mounting_and_become_ready(voi
             run(&engine, &motion, k, k + 1);
             const jcal_hinge_result_t r = result_of(&engine);
             assert_sane(&r);
-            if (r.status == JCAL_READY) {
+            if (r.head.status == JCAL_READY) {
                 TEST_ASSERT_TRUE(jcal_sphere_line_angle(r.axis1, motion_axis(&motion, 0)) < config.max_bound_rad);
                 TEST_ASSERT_TRUE(jcal_sphere_line_angle(r.axis2, motion_axis(&motion, 1)) < config.max_bound_rad);
             }
         }
         const jcal_hinge_result_t r = result_of(&engine);
         assert_axes(&r, &motion);
-        TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
-        TEST_ASSERT_EQUAL_INT(JCAL_WEAK_NONE, r.weak);
-        TEST_ASSERT_EQUAL_INT(JCAL_HINT_NONE, r.hint);
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_NONE, r.head.hint);
         TEST_ASSERT_TRUE(r.sign_margin > 1.3f);
         TEST_ASSERT_EQUAL_FLOAT(1.0f, r.progress_axis1);
         TEST_ASSERT_EQUAL_FLOAT(1.0f, r.progress_axis2);
@@ -39,7 +39,7 @@ static void axes_are_recovered_at_every_rate(void)
         run(&engine, &motion, 0, (uint32_t)(20.0 * rates[i]));
         const jcal_hinge_result_t r = result_of(&engine);
         assert_axes(&r, &motion);
-        TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
     }
 }
 
@@ -65,7 +65,7 @@ static void either_pairing_is_found_without_a_hint_and_kept_with_the_right_one(v
             run(&engine, &motion, 0, RUN);
             const jcal_hinge_result_t r = result_of(&engine);
             assert_axes(&r, &motion);
-            TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
+            TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
             TEST_ASSERT_EQUAL_INT(same == 1, (r.axis1.z * r.axis2.z) > 0.0f);
         }
     }
@@ -97,9 +97,9 @@ static void a_hint_that_the_data_contradict_is_never_ready(void)
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_init(&engine, &config));
         for (uint32_t k = 0; k < 3u * RUN; ++k) {
             run(&engine, &motion, k, k + 1);
-            TEST_ASSERT_NOT_EQUAL(JCAL_READY, result_of(&engine).status);
+            TEST_ASSERT_NOT_EQUAL(JCAL_READY, result_of(&engine).head.status);
         }
-        TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, result_of(&engine).reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, result_of(&engine).head.reason);
     }
 }
 
@@ -131,7 +131,7 @@ static void turning_the_frame_of_sensor_1_turns_axis1_alone(void)
     const float sign = (jcal_vec3_dot(expected, b.axis1) < 0.0f) ? -1.0f : 1.0f; /* axis1 is shown with its main + */
     TEST_ASSERT_TRUE(jcal_sphere_angle(jcal_vec3_scale(expected, sign), b.axis1) < SYMMETRY_TOL_RAD);
     TEST_ASSERT_TRUE(jcal_sphere_angle(jcal_vec3_scale(a.axis2, sign), b.axis2) < SYMMETRY_TOL_RAD);
-    TEST_ASSERT_EQUAL_INT(a.status, b.status);
+    TEST_ASSERT_EQUAL_INT(a.head.status, b.head.status);
     TEST_ASSERT_FLOAT_WITHIN(0.1f * a.uncertainty1_rad, a.uncertainty1_rad, b.uncertainty1_rad);
     TEST_ASSERT_FLOAT_WITHIN(0.1f * a.uncertainty2_rad, a.uncertainty2_rad, b.uncertainty2_rad);
 }

@@ -19,7 +19,7 @@ static void axes_are_recovered_for_any_mounting_with_the_right_pairing(void)
         const jcal_hinge_result_t result = result_of(&engine);
         assert_axes(&result, &motion);
         TEST_ASSERT_TRUE(result.sign_margin > 2.0f);
-        TEST_ASSERT_EQUAL_INT(JCAL_ENGINE_WINDOW, result.engine);
+        TEST_ASSERT_EQUAL_INT(JCAL_ENGINE_WINDOW, result.head.engine);
     }
 }
 
@@ -273,7 +273,7 @@ static void smallest_buffers_and_no_window_still_work_after_hours(void)
     const jcal_hinge_result_t r = result_of(&engine);
     TEST_ASSERT_TRUE(jcal_sphere_line_angle(r.axis1, motion_axis(&motion, 0)) < 3.0f * JCAL_RAD_PER_DEG);
     TEST_ASSERT_TRUE(jcal_sphere_line_angle(r.axis2, motion_axis(&motion, 1)) < 3.0f * JCAL_RAD_PER_DEG);
-    TEST_ASSERT_EQUAL_UINT32(LONG_RUN, r.samples);
+    TEST_ASSERT_EQUAL_UINT32(LONG_RUN, r.head.samples);
 }
 
 /* What was selected before a slip is of another joint: the window begins anew with the engine that watches beside it. */
@@ -281,22 +281,22 @@ static void a_slip_empties_the_window_and_the_new_axes_are_found(void)
 {
     const motion_t motion = motion_lively(1);
     run(&engine, &motion, 0, RUN);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     motion_t after = motion; /* sensor 2 turned by 60 deg about (1, 1, 1) */
     const float part = 0.5f / 1.7320508f;
     after.q_s2_b = jcal_quat_mul(after.q_s2_b, jcal_quat(0.8660254f, part, part, part));
     uint32_t k = RUN;
-    while ((k < (RUN + 250u)) && (result_of(&engine).status != JCAL_MOVED)) { /* 5 s */
+    while ((k < (RUN + 250u)) && (result_of(&engine).head.status != JCAL_MOVED)) { /* 5 s */
         run(&engine, &after, k, k + 1u);
         ++k;
     }
     const jcal_hinge_result_t moved = result_of(&engine);
-    TEST_ASSERT_EQUAL_INT(JCAL_MOVED, moved.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_MOVED, moved.head.status);
     TEST_ASSERT_FALSE(moved.has_axes);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_vec3_norm(moved.axis2));
     run(&engine, &after, k, k + RUN);
     const jcal_hinge_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
     TEST_ASSERT_TRUE(jcal_sphere_line_angle(r.axis1, motion_axis(&after, 0)) < r.uncertainty1_rad);
     TEST_ASSERT_TRUE(jcal_sphere_line_angle(r.axis2, motion_axis(&after, 1)) < r.uncertainty2_rad);
 }

@@ -17,9 +17,9 @@ static void samples_that_are_not_finite_are_rejected_and_counted(void)
         }
     }
     const jcal_hinge_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_UINT32(36, r.samples);
-    TEST_ASSERT_EQUAL_UINT32(36, r.rejected);
-    TEST_ASSERT_EQUAL_UINT32(36, r.rejected_by[JCAL_REJECT_NOT_FINITE]);
+    TEST_ASSERT_EQUAL_UINT32(36, r.head.samples);
+    TEST_ASSERT_EQUAL_UINT32(36, r.head.rejected);
+    TEST_ASSERT_EQUAL_UINT32(36, r.head.rejected_by[JCAL_REJECT_NOT_FINITE]);
     TEST_ASSERT_EQUAL_INT(JCAL_IDLE, jcal_hinge_window_step(&engine));
 }
 
@@ -33,7 +33,7 @@ static void time_that_does_not_increase_is_rejected(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_hinge_window_update(&engine, &again));
     again.t_us = pair.t_us - 1u;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_hinge_window_update(&engine, &again));
-    TEST_ASSERT_EQUAL_UINT32(2, result_of(&engine).rejected_by[JCAL_REJECT_TIME_ORDER]);
+    TEST_ASSERT_EQUAL_UINT32(2, result_of(&engine).head.rejected_by[JCAL_REJECT_TIME_ORDER]);
 }
 
 static void impossible_readings_are_rejected(void)
@@ -43,7 +43,7 @@ static void impossible_readings_are_rejected(void)
     jcal_pair_t pair = motion_sample(&motion, 3);
     pair.imu2.gyr_rad_s.y = 300.0f;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_hinge_window_update(&engine, &pair));
-    TEST_ASSERT_EQUAL_UINT32(1, result_of(&engine).rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
+    TEST_ASSERT_EQUAL_UINT32(1, result_of(&engine).head.rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
 }
 
 static void shifting_all_times_changes_no_bit(void)
@@ -87,7 +87,7 @@ static void reset_forgets_everything_but_the_config(void)
     run(&engine, &first, 0, 600);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_window_reset(&engine));
     TEST_ASSERT_FALSE(result_of(&engine).has_axes);
-    TEST_ASSERT_EQUAL_UINT32(0, result_of(&engine).samples);
+    TEST_ASSERT_EQUAL_UINT32(0, result_of(&engine).head.samples);
     run(&engine, &second, 0, 600);
     jcal_hinge_window_t fresh;
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_window_init(&fresh, &config, storage2, sizeof storage2));
@@ -225,8 +225,8 @@ static void update_makes_room_in_a_full_inbox(void)
     run(&other, &motion, 0, 300);
     const jcal_hinge_result_t a = result_of(&engine);
     const jcal_hinge_result_t b = result_of(&other);
-    TEST_ASSERT_EQUAL_UINT32(300, a.samples);
-    TEST_ASSERT_TRUE(a.t_us == b.t_us);
+    TEST_ASSERT_EQUAL_UINT32(300, a.head.samples);
+    TEST_ASSERT_TRUE(a.head.t_us == b.head.t_us);
     TEST_ASSERT_EQUAL_MEMORY(storage, storage2, sizeof storage);
 }
 
@@ -242,19 +242,19 @@ static void an_axis_on_which_the_engines_disagree_is_weak_and_not_ready(void)
     const motion_t motion = motion_lively(2);
     run(&engine, &motion, 0, RUN);
     const jcal_hinge_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
     for (int sensor = 0; sensor < 2; ++sensor) {
         jcal_hinge_window_t copy = engine;
         copy.axes.j[sensor] = turned_away(copy.axes.j[sensor]);
         const jcal_hinge_result_t apart = result_of(&copy);
-        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, apart.status);
-        TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, apart.reason);
-        TEST_ASSERT_EQUAL_INT((sensor == 0) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2, apart.weak);
+        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, apart.head.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, apart.head.reason);
+        TEST_ASSERT_EQUAL_INT((sensor == 0) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2, apart.head.weak);
     }
     jcal_hinge_window_t other = engine;
     other.axes.j[1] = jcal_vec3_scale(other.axes.j[1], -1.0f);
-    TEST_ASSERT_EQUAL_INT(JCAL_AMBIGUOUS, result_of(&other).status);
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, result_of(&other).reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_AMBIGUOUS, result_of(&other).head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, result_of(&other).head.reason);
 }
 
 int main(void)

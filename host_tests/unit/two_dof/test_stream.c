@@ -78,7 +78,7 @@ static void ready_is_reached_and_its_bounds_hold(void)
             uint32_t inside = 0;
             for (uint32_t k = 0; k < (uint32_t)SECONDS * RATE_HZ; ++k) {
                 feed(&engine, &sim, k, k + 1u);
-                if (result_of(&engine).status == JCAL_READY) {
+                if (result_of(&engine).head.status == JCAL_READY) {
                     TEST_ASSERT_TRUE((ready > 0u) || is_inside(&sim)); /* when it is said first */
                     ++ready;
                     inside += is_inside(&sim) ? 1u : 0u;
@@ -90,10 +90,10 @@ static void ready_is_reached_and_its_bounds_hold(void)
             TEST_ASSERT_TRUE(is_inside(&sim));
             TEST_ASSERT_TRUE(error_of(&sim) < 0.75 * DEG); /* the mismatch of the config */
             const jcal_two_dof_result_t r = result_of(&engine);
-            TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, r.reason);
-            TEST_ASSERT_EQUAL_INT(JCAL_WEAK_NONE, r.weak);
-            TEST_ASSERT_EQUAL_INT(JCAL_HINT_NONE, r.hint);
-            TEST_ASSERT_EQUAL_INT(JCAL_ENGINE_STREAM, r.engine);
+            TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, r.head.reason);
+            TEST_ASSERT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
+            TEST_ASSERT_EQUAL_INT(JCAL_HINT_NONE, r.head.hint);
+            TEST_ASSERT_EQUAL_INT(JCAL_ENGINE_STREAM, r.head.engine);
         }
     }
 }
@@ -130,8 +130,8 @@ static void exchanged_sensors_give_the_exchanged_result(void)
     }
     const jcal_two_dof_result_t a = result_of(&engine);
     const jcal_two_dof_result_t b = result_of(&other);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, a.status);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, b.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, a.head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, b.head.status);
     TEST_ASSERT_TRUE(apart(a.axis1, b.axis2) < 0.002);
     TEST_ASSERT_TRUE(apart(a.axis2, b.axis1) < 0.002);
     TEST_ASSERT_TRUE(pose_apart((double)a.heading_offset_rad, -(double)b.heading_offset_rad) < 0.005);
@@ -142,10 +142,10 @@ static void never_ready(const sim_t *sim, jcal_reason_t reason)
     setUp();
     for (uint32_t k = 0; k < (uint32_t)NEVER_SECONDS * RATE_HZ; ++k) {
         feed(&engine, sim, k, k + 1u);
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     }
     if (reason != JCAL_REASON_NONE) {
-        TEST_ASSERT_EQUAL_INT(reason, result_of(&engine).reason);
+        TEST_ASSERT_EQUAL_INT(reason, result_of(&engine).head.reason);
     }
 }
 
@@ -179,7 +179,7 @@ static void with_the_first_segment_at_rest_the_heading_stays_open(void)
         sim.skin = 0.003;
         never_ready(&sim, JCAL_REASON_NONE);
         const jcal_two_dof_result_t r = result_of(&engine);
-        TEST_ASSERT_TRUE((r.weak == JCAL_WEAK_HEADING) || (r.weak == JCAL_WEAK_AXIS1));
+        TEST_ASSERT_TRUE((r.head.weak == JCAL_WEAK_HEADING) || (r.head.weak == JCAL_WEAK_AXIS1));
         TEST_ASSERT_TRUE(r.uncertainty_heading_rad > config.max_bound_rad);
     }
 }
@@ -197,10 +197,10 @@ static void bodies_that_share_no_joint_do_not_fit(void)
             pair.q2 = sample_of(&two, k).q2;
             (void)jcal_two_dof_update(&engine, &pair);
             const jcal_two_dof_result_t r = result_of(&engine);
-            TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, r.status);
-            if (r.reason == JCAL_REASON_DOES_NOT_FIT) {
+            TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, r.head.status);
+            if (r.head.reason == JCAL_REASON_DOES_NOT_FIT) {
                 ++said;
-                TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.hint);
+                TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
             }
         }
         /* after some seconds, and but for moments when another minimum is taken up */
@@ -216,9 +216,9 @@ static void frozen_values_are_never_ready(void)
         jcal_orientation_pair_t pair = sample_of(&sim, k);
         pair.q1 = first.q1;
         (void)jcal_two_dof_update(&engine, &pair);
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     }
-    TEST_ASSERT_TRUE(result_of(&engine).rejected_by[JCAL_REJECT_FROZEN] > 1000u);
+    TEST_ASSERT_TRUE(result_of(&engine).head.rejected_by[JCAL_REJECT_FROZEN] > 1000u);
 }
 
 /* A slip: from now on sensor 1 sits turned. */
@@ -236,13 +236,13 @@ static void a_slip_is_noticed_and_calibrated_anew(void)
         const sim_t sim = lively(seed);
         setUp();
         feed(&engine, &sim, 0, slip);
-        TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
         uint32_t moved = 0;
         uint32_t again = 0;
         for (uint32_t k = slip; k < (slip + (60u * RATE_HZ)); ++k) {
             const jcal_orientation_pair_t pair = slipped(&sim, k);
             (void)jcal_two_dof_update(&engine, &pair);
-            const jcal_calibration_t status = result_of(&engine).status;
+            const jcal_calibration_t status = result_of(&engine).head.status;
             moved = ((moved == 0u) && (status == JCAL_MOVED)) ? k : moved;
             again = ((moved > 0u) && (again == 0u) && (status == JCAL_READY)) ? k : again;
         }
@@ -260,7 +260,7 @@ static void after_a_slip_what_does_not_fit_is_given_up(void)
     const sim_t sim = lively(1);
     const uint32_t slip = 30u * RATE_HZ, upset = 20u * RATE_HZ;
     feed(&engine, &sim, 0, slip);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     uint32_t again = 0;
     for (uint32_t k = slip; k < (slip + upset + (30u * RATE_HZ)); ++k) {
         jcal_orientation_pair_t pair = slipped(&sim, k);
@@ -270,7 +270,7 @@ static void after_a_slip_what_does_not_fit_is_given_up(void)
                 jcal_quat_normalise(jcal_quat(1.0f, 0.2f * sinf(4.1f * t), 0.2f * sinf(5.3f * t), 0.0f)), pair.q2);
         }
         (void)jcal_two_dof_update(&engine, &pair);
-        const bool ready = (k > (slip + (5u * RATE_HZ))) && (result_of(&engine).status == JCAL_READY);
+        const bool ready = (k > (slip + (5u * RATE_HZ))) && (result_of(&engine).head.status == JCAL_READY);
         TEST_ASSERT_FALSE(ready && (k < (slip + upset)));
         again = (ready && (again == 0u)) ? k : again;
     }
@@ -281,7 +281,7 @@ static void rest_after_ready_is_no_slip_and_keeps_the_axes(void)
 {
     const sim_t sim = lively(3);
     feed(&engine, &sim, 0, 30u * RATE_HZ);
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     sim_t still = sim;
     still.flexion = 0.0;
     still.pronation = 0.0;
@@ -291,12 +291,12 @@ static void rest_after_ready_is_no_slip_and_keeps_the_axes(void)
     feed(&engine, &still, 0, 1); /* time goes back once: rejected */
     for (uint32_t k = 30u * RATE_HZ; k < ((30u * RATE_HZ) + rest); ++k) {
         feed(&engine, &still, k, k + 1u);
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_MOVED, result_of(&engine).status);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_MOVED, result_of(&engine).head.status);
     }
     const jcal_two_dof_result_t r = result_of(&engine);
     TEST_ASSERT_TRUE(apart(r.axis1, pose_axis1(&sim.joint)) < (double)r.uncertainty1_rad);
     TEST_ASSERT_TRUE(apart(r.axis2, pose_axis2(&sim.joint)) < (double)r.uncertainty2_rad);
-    TEST_ASSERT_EQUAL_UINT32(1u, r.rejected_by[JCAL_REJECT_TIME_ORDER]);
+    TEST_ASSERT_EQUAL_UINT32(1u, r.head.rejected_by[JCAL_REJECT_TIME_ORDER]);
 }
 
 static void the_heading_is_followed_as_it_drifts(void)
@@ -309,7 +309,7 @@ static void the_heading_is_followed_as_it_drifts(void)
     for (uint32_t k = 0; k < (uint32_t)NEVER_SECONDS * 2u * RATE_HZ; ++k) {
         sim.heading = heading + drift_rad_s * (double)k / RATE_HZ;
         feed(&engine, &sim, k, k + 1u);
-        if (result_of(&engine).status == JCAL_READY) {
+        if (result_of(&engine).head.status == JCAL_READY) {
             ++ready;
             inside += is_inside(&sim) ? 1u : 0u;
         }
@@ -331,9 +331,10 @@ static void shifting_all_times_changes_no_bit(void)
     }
     jcal_two_dof_result_t a = result_of(&engine);
     jcal_two_dof_result_t b = result_of(&later);
-    TEST_ASSERT_TRUE(a.t_us + UINT64_C(0x123456789ABCDEF) == b.t_us); /* small builds of Unity know no 64-bit types */
-    a.t_us = 0u;
-    b.t_us = 0u;
+    TEST_ASSERT_TRUE(a.head.t_us + UINT64_C(0x123456789ABCDEF) ==
+                     b.head.t_us); /* small builds of Unity know no 64-bit types */
+    a.head.t_us = 0u;
+    b.head.t_us = 0u;
     TEST_ASSERT_EQUAL_MEMORY(&a, &b, sizeof a);
 }
 
@@ -365,7 +366,7 @@ static void without_step_the_ring_is_full(void)
     const jcal_orientation_pair_t second = sample_of(&sim, 4);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &first));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_FULL, jcal_two_dof_push(&engine, &second));
-    TEST_ASSERT_EQUAL_UINT32(1u, result_of(&engine).samples);
+    TEST_ASSERT_EQUAL_UINT32(1u, result_of(&engine).head.samples);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_step(&engine));
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &second));
 }
@@ -439,8 +440,8 @@ static void every_field_out_of_its_range_is_named(void)
 static void before_any_data_nothing_is_claimed(void)
 {
     const jcal_two_dof_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.status);
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.head.reason);
     TEST_ASSERT_FALSE(r.has_axes);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.5707964f, r.uncertainty1_rad);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.5707964f, r.uncertainty_heading_rad);

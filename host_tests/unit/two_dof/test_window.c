@@ -130,7 +130,7 @@ static void axes_heading_and_carrying_angle_are_found(void)
             feed(&engine, &sim, 0, SECONDS * RATE_HZ);
             const jcal_two_dof_result_t r = result_of(&engine);
             TEST_ASSERT_TRUE(r.has_axes);
-            TEST_ASSERT_EQUAL_INT(JCAL_ENGINE_WINDOW, r.engine);
+            TEST_ASSERT_EQUAL_INT(JCAL_ENGINE_WINDOW, r.head.engine);
             TEST_ASSERT_DOUBLE_WITHIN(limits[c], 0.0, apart(r.axis1, axis1));
             TEST_ASSERT_DOUBLE_WITHIN(limits[c], 0.0, apart(r.axis2, axis2));
             TEST_ASSERT_TRUE(pose_apart((double)r.heading_offset_rad, sim.heading) < limits[c]);
@@ -152,13 +152,13 @@ static void ready_is_reached_and_its_bounds_hold(void)
         for (uint32_t k = 0; k < (uint32_t)SECONDS * RATE_HZ; ++k) {
             feed(&engine, &sim, k, k + 1u);
             const jcal_two_dof_result_t r = result_of(&engine);
-            if (r.status == JCAL_READY) {
+            if (r.head.status == JCAL_READY) {
                 ++ready;
                 TEST_ASSERT_TRUE(apart(r.axis1, axis1) < (double)r.uncertainty1_rad);
                 TEST_ASSERT_TRUE(apart(r.axis2, axis2) < (double)r.uncertainty2_rad);
                 TEST_ASSERT_TRUE(pose_apart((double)r.heading_offset_rad, sim.heading) <
                                  (double)r.uncertainty_heading_rad);
-                TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, r.reason);
+                TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, r.head.reason);
             }
         }
         TEST_ASSERT_GREATER_THAN_UINT32((uint32_t)SECONDS * RATE_HZ / 3u, ready);
@@ -171,7 +171,7 @@ static void never_ready(const sim_t *sim, jcal_constraint_t constraint)
     for (uint32_t k = 0; k < (uint32_t)SECONDS * RATE_HZ; ++k) {
         const jcal_orientation_pair_t pair = sample_of(sim, k);
         (void)jcal_two_dof_window_update(&engine, &pair); /* at rest samples are refused as frozen */
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     }
 }
 
@@ -208,7 +208,7 @@ static void sensors_that_share_no_joint_are_never_ready(void)
             jcal_orientation_pair_t pair = sample_of(&one, k);
             pair.q2 = sample_of(&two, k).q2;
             (void)jcal_two_dof_window_update(&engine, &pair);
-            TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).status);
+            TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
         }
     }
 }

@@ -14,7 +14,7 @@ static void there_is_no_estimate_before_the_buffer_is_half_full(void)
     feed(&engine, &sim, 0, 505);
     const jcal_two_dof_result_t before = result_of(&engine);
     TEST_ASSERT_FALSE(before.has_axes);
-    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, before.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, before.head.reason);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, before.axis1.x);
     feed(&engine, &sim, 505, 506 + 14 * 5); /* a start, and at most 14 steps, two passes for each row */
     TEST_ASSERT_TRUE(result_of(&engine).has_axes);
@@ -29,7 +29,7 @@ static void the_last_samples_at_least_50_ms_apart_are_kept(void)
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_window_kept(&engine, kept, &count));
     TEST_ASSERT_EQUAL_UINT(59, count);
     TEST_ASSERT_TRUE(kept[0] == 5050000u);
-    TEST_ASSERT_TRUE(result_of(&engine).t_us == kept[58]);
+    TEST_ASSERT_TRUE(result_of(&engine).head.t_us == kept[58]);
     feed(&engine, &sim, 5 * 60 + 1, 5 * 300 + 1);
     count = N_MAX - 1u;
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_two_dof_window_kept(&engine, kept, &count));
@@ -73,7 +73,7 @@ static void a_push_waits_for_its_step(void)
     pair = sample_of(&sim, 10);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_window_update(&engine, &pair)); /* makes room */
     TEST_ASSERT_EQUAL_INT(JCAL_IDLE, jcal_two_dof_window_step(&engine));
-    TEST_ASSERT_EQUAL_UINT32(4, result_of(&engine).samples);
+    TEST_ASSERT_EQUAL_UINT32(4, result_of(&engine).head.samples);
 }
 
 static void bad_orientations_are_rejected_and_counted(void)
@@ -89,11 +89,11 @@ static void bad_orientations_are_rejected_and_counted(void)
     pair.q2 = (jcal_quat_t){0.0f, 0.0f, 0.0f, 0.0f};
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_two_dof_window_update(&engine, &pair));
     const jcal_two_dof_result_t r = result_of(&engine);
-    TEST_ASSERT_EQUAL_UINT32(4, r.samples);
-    TEST_ASSERT_EQUAL_UINT32(3, r.rejected);
-    TEST_ASSERT_EQUAL_UINT32(1, r.rejected_by[JCAL_REJECT_TIME_ORDER]);
-    TEST_ASSERT_EQUAL_UINT32(1, r.rejected_by[JCAL_REJECT_NOT_FINITE]);
-    TEST_ASSERT_EQUAL_UINT32(1, r.rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
+    TEST_ASSERT_EQUAL_UINT32(4, r.head.samples);
+    TEST_ASSERT_EQUAL_UINT32(3, r.head.rejected);
+    TEST_ASSERT_EQUAL_UINT32(1, r.head.rejected_by[JCAL_REJECT_TIME_ORDER]);
+    TEST_ASSERT_EQUAL_UINT32(1, r.head.rejected_by[JCAL_REJECT_NOT_FINITE]);
+    TEST_ASSERT_EQUAL_UINT32(1, r.head.rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
 }
 
 static void configs_out_of_range_are_refused(void)
@@ -160,7 +160,7 @@ static void assert_same(const jcal_two_dof_result_t *a, const jcal_two_dof_resul
     TEST_ASSERT_EQUAL_MEMORY(&a->axis2, &b->axis2, sizeof a->axis2);
     TEST_ASSERT_EQUAL_MEMORY(&a->heading_offset_rad, &b->heading_offset_rad, sizeof a->heading_offset_rad);
     TEST_ASSERT_EQUAL_MEMORY(&a->uncertainty1_rad, &b->uncertainty1_rad, sizeof a->uncertainty1_rad);
-    TEST_ASSERT_EQUAL_INT(a->status, b->status);
+    TEST_ASSERT_EQUAL_INT(a->head.status, b->head.status);
 }
 
 static void reset_a_copy_and_other_times_change_no_bit(void)
