@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// The 2-DoF joint's residuals, derivatives, costs and angles against the float64 numpy reference, tools/make_golden.py.
+/// The 2-DoF joint's residuals, derivatives, costs and angles against the float64 numpy reference, tools/maintain/make_golden.py.
 #include "calib/two_dof_model.h"
 #include "calib/two_dof_window_cost.h"
 #include "golden/two_dof.h"
