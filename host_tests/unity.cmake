@@ -8,7 +8,7 @@ function(jointcal_unity_from folder)
     target_compile_definitions(unity PUBLIC UNITY_INCLUDE_DOUBLE)
 endfunction()
 
-# tools/unity.sh leaves Unity here; a plain `cmake --preset host` after it then needs no variable.
+# tools/maintain/unity.sh leaves Unity here; a plain `cmake --preset host` after it then needs no variable.
 if(NOT UNITY_ROOT AND EXISTS ${PROJECT_SOURCE_DIR}/build/unity/unity.c)
     set(UNITY_ROOT ${PROJECT_SOURCE_DIR}/build/unity)
 endif()
@@ -33,7 +33,7 @@ if(NOT EXISTS ${unity_release})
          STATUS unity_status TIMEOUT 60 INACTIVITY_TIMEOUT 10)
     list(GET unity_status 0 unity_status)
     if(NOT unity_status EQUAL 0)
-        message(WARNING "Unity is not to be had: no unit tests. tools/unity.sh fetches it, or set UNITY_ROOT.")
+        message(WARNING "Unity is not to be had: no unit tests. tools/maintain/unity.sh fetches it, or set UNITY_ROOT.")
         return()
     endif()
     file(RENAME ${unity_release}.part ${unity_release})

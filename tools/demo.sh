@@ -5,7 +5,7 @@
 # Installs what is missing (as root; otherwise it prints the command), builds the program, runs it, draws a plot.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-source tools/packages.sh
+source tools/maintain/packages.sh
 
 need_packages "${build_packages[@]}" python3-numpy python3-matplotlib
 mkdir -p build/demo

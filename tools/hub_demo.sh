@@ -8,7 +8,7 @@
 # --check plays as fast as it goes, prints no more than needed, and fails unless both are the same bytes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-source tools/packages.sh
+source tools/maintain/packages.sh
 
 check=false speed=10 board=mps2_an386
 while (($# > 0)); do

@@ -7,7 +7,7 @@
 # Log files go to build/logs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-source tools/packages.sh
+source tools/maintain/packages.sh
 
 logs=build/logs
 mkdir -p "$logs"
@@ -18,7 +18,7 @@ step "Tools"
 need_packages "${build_packages[@]}" "${target_packages[@]}" pkg-config xz-utils clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev \
     cppcheck python3-venv python3-numpy python3-matplotlib
 python=$(python_with numpy matplotlib)
-tools/unity.sh
+tools/maintain/unity.sh
 tools/vqf.sh
 
 for preset in host host-debug; do
@@ -40,13 +40,13 @@ for preset in host host-debug; do
 done
 
 step "Fuzzers, a short run"
-tools/fuzz.sh 20000
+tools/maintain/fuzz.sh 20000
 
 step "Python tests"
 PYTHONPATH=tools/python "$python" -m unittest discover -s host_tests/python -t host_tests/python -v 2>&1 |
     tee "$logs/python.log"
 
-for script in tools/make_golden.py tools/make_demo.py; do
+for script in tools/maintain/make_golden.py tools/maintain/make_demo.py; do
     if [[ -e $script ]]; then
         step "Regeneration, $script --check"
         "$python" "$script" --check
@@ -55,9 +55,9 @@ done
 step "Measurements, a short run"
 "$python" tools/measure.py all --quick --no-qmt
 step "Hub over a bad wire, a short run"
-"$python" tools/hub_soak.py --minutes 1
+"$python" tools/maintain/hub_soak.py --minutes 1
 step "Cortex-M processors in QEMU"
 tools/test_target.sh
 step "Hub in QEMU over a bad wire, a short run"
-"$python" tools/hub_soak.py --minutes 1 --board mps2_an386
+"$python" tools/maintain/hub_soak.py --minutes 1 --board mps2_an386
 step "All steps passed"

@@ -7,12 +7,12 @@
 # Log files go to build/logs.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-source tools/packages.sh
+source tools/maintain/packages.sh
 
 logs=build/logs
 mkdir -p "$logs"
 need_packages "${build_packages[@]}" "${target_packages[@]}" xz-utils python3-venv
-tools/unity.sh
+tools/maintain/unity.sh
 tools/vqf.sh
 
 what=${1:-all}

@@ -4,7 +4,7 @@
  * Four kinds in turn: random bytes between zeros; a right frame with its content replaced by random bytes; a right frame with 1
  * to 64 bits flipped; a right frame cut short, lengthened or with bytes exchanged. A frame that comes out as it went in is not
  * damaged and not counted. What is accepted beyond that got past the CRC, with odds of 2^-32 each. Prints one line per kind,
- * ends with 1 if chance does not explain the number. Built with sanitizers by tools/fuzz.sh. */
+ * ends with 1 if chance does not explain the number. Built with sanitizers by tools/maintain/fuzz.sh. */
 #include "frame.h"
 
 #include <stdio.h>

@@ -2,7 +2,7 @@
 /// @file
 /// Golden vectors of the joint centre in float64, generated: do not edit. Compared by unit/center/test_golden.c.
 ///
-/// Generator tools/make_golden.py, seed 42, numpy 1.24.2.
+/// Generator tools/maintain/make_golden.py, seed 42, numpy 1.24.2.
 #ifndef GOLDEN_CENTER_H
 #define GOLDEN_CENTER_H
 

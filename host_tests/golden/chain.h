@@ -2,7 +2,7 @@
 /// @file
 /// Golden vectors of what ties hip and knee, in float64, generated: do not edit. Compared by unit/chain/test_golden.c.
 ///
-/// Generator tools/make_golden.py, seed 42, numpy 1.24.2.
+/// Generator tools/maintain/make_golden.py, seed 42, numpy 1.24.2.
 #ifndef GOLDEN_CHAIN_H
 #define GOLDEN_CHAIN_H
 

@@ -2,7 +2,7 @@
 /// @file
 /// Golden vectors of the hinge in float64, generated: do not edit. Compared by unit/hinge/test_golden.c.
 ///
-/// Generator tools/make_golden.py, seed 42, numpy 1.24.2.
+/// Generator tools/maintain/make_golden.py, seed 42, numpy 1.24.2.
 #ifndef GOLDEN_HINGE_H
 #define GOLDEN_HINGE_H
 

@@ -2,7 +2,7 @@
 /// @file
 /// Golden vectors of the 2-DoF joint in float64, generated: do not edit. Compared by unit/two_dof/test_golden.c.
 ///
-/// Generator tools/make_golden.py, seed 42, numpy 1.24.2.
+/// Generator tools/maintain/make_golden.py, seed 42, numpy 1.24.2.
 #ifndef GOLDEN_TWO_DOF_H
 #define GOLDEN_TWO_DOF_H
 

@@ -10,7 +10,7 @@ import sys
 import tempfile
 import unittest
 
-SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "tools" / "scripts"
+SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "tools" / "maintain"
 CC, AR, NM = sys.argv[1:4]
 GOOD = "/* SPDX-License-Identifier: MIT */\n"
 

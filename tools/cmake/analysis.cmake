@@ -32,7 +32,7 @@ if(JOINTCAL_CLANG_FORMAT)
 endif()
 if(JOINTCAL_CLANG_TIDY)
     add_custom_target(tidy
-        COMMAND ${PROJECT_SOURCE_DIR}/tools/scripts/tidy.sh ${JOINTCAL_CLANG_TIDY} ${PROJECT_BINARY_DIR}
+        COMMAND ${PROJECT_SOURCE_DIR}/tools/maintain/tidy.sh ${JOINTCAL_CLANG_TIDY} ${PROJECT_BINARY_DIR}
                 ${processors} ${source_files}
         COMMAND ${JOINTCAL_CLANG_TIDY} --quiet ${port_files} -- ${port_flags}
         VERBATIM)

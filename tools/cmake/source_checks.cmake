@@ -9,9 +9,9 @@ endif()
 file(GLOB_RECURSE jointcal_checked CONFIGURE_DEPENDS lib/*.c lib/*.h include/*.h)
 add_custom_command(
     OUTPUT ${PROJECT_BINARY_DIR}/sources_checked.stamp
-    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/scripts/check_sources.py ${jointcal_checked}
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/maintain/check_sources.py ${jointcal_checked}
     COMMAND ${CMAKE_COMMAND} -E touch ${PROJECT_BINARY_DIR}/sources_checked.stamp
-    DEPENDS ${jointcal_checked} tools/scripts/check_sources.py
+    DEPENDS ${jointcal_checked} tools/maintain/check_sources.py
     COMMENT "Checking the library's sources for banned words, recursion and length" VERBATIM)
 
 # Sanitizers and coverage counters add symbols and statics of their own.
@@ -19,10 +19,10 @@ set(jointcal_check_stamps ${PROJECT_BINARY_DIR}/sources_checked.stamp)
 if(NOT JOINTCAL_SANITIZE AND NOT JOINTCAL_COVERAGE)
     add_custom_command(
         OUTPUT ${PROJECT_BINARY_DIR}/archive_checked.stamp
-        COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/scripts/check_archive.py ${CMAKE_NM}
+        COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/maintain/check_archive.py ${CMAKE_NM}
                 $<TARGET_FILE:jointcal>
         COMMAND ${CMAKE_COMMAND} -E touch ${PROJECT_BINARY_DIR}/archive_checked.stamp
-        DEPENDS jointcal tools/scripts/check_archive.py
+        DEPENDS jointcal tools/maintain/check_archive.py
         COMMENT "Checking the library's symbols: no heap, no I/O, no libm, no mutable statics" VERBATIM)
     list(APPEND jointcal_check_stamps ${PROJECT_BINARY_DIR}/archive_checked.stamp)
 endif()

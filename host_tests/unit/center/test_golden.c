@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// The joint centre's kinematics, residuals and window engine against the float64 numpy reference, tools/make_golden.py.
+/// The joint centre's kinematics, residuals and window engine against the float64 numpy reference, tools/maintain/make_golden.py.
 #include "center/model.h"
 #include "golden/center.h"
 #include "jointcal/center_window.h"

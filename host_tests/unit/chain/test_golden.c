@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// What ties hip and knee, one observation after the other in float32, against least squares over all of them at once in float64,
-/// tools/make_golden.py.
+/// tools/maintain/make_golden.py.
 #include "chain/tie.h"
 #include "golden/chain.h"
 #include "math/sym.h"

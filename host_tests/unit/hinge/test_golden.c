@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// The hinge's costs, residuals and derivatives against the float64 numpy reference, tools/make_golden.py.
+/// The hinge's costs, residuals and derivatives against the float64 numpy reference, tools/maintain/make_golden.py.
 #include "golden/hinge.h"
 #include "hinge/model.h"
 #include "hinge/stream.h"

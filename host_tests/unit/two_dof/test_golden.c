@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// The 2-DoF joint's residuals, derivatives, costs and angles against the float64 numpy reference, tools/make_golden.py.
+/// The 2-DoF joint's residuals, derivatives, costs and angles against the float64 numpy reference, tools/maintain/make_golden.py.
 #include "golden/two_dof.h"
 #include "jointcal/joint_angles.h"
 #include "jointcal/quat.h"

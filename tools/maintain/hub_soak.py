@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: MIT
 """Stream a simulated hour to a hub over a bad wire and check what it counts and finds.
 
-    python3 tools/hub_soak.py                         one hour at 100 Hz; writes its section of docs/measurements/hub.md
-    python3 tools/hub_soak.py --board mps2_an386      the same to the firmware in QEMU (build of preset m4f); takes half an hour
-    python3 tools/hub_soak.py --minutes 1             as CI does, with and without --board; writes build/measurements/hub.md
-    python3 tools/hub_soak.py --minutes 1 --to unix:PATH    a hub that runs already
+    python3 tools/maintain/hub_soak.py                         one hour at 100 Hz; writes its section of docs/measurements/hub.md
+    python3 tools/maintain/hub_soak.py --board mps2_an386      the same to the firmware in QEMU (build of preset m4f); takes half an hour
+    python3 tools/maintain/hub_soak.py --minutes 1             as CI does, with and without --board; writes build/measurements/hub.md
+    python3 tools/maintain/hub_soak.py --minutes 1 --to unix:PATH    a hub that runs already
 
 1 % of the sample frames are lost, 0.1 % damaged (one to three bits of any byte, the final zero included), 0.1 %
 repeated, 0.1 % swapped with the next one. Sent as fast as the hub gives credit. Expected counters are computed from the bytes
@@ -26,7 +26,7 @@ import tempfile
 import time
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools" / "python"))
 
 import numpy as np  # noqa: E402
@@ -201,7 +201,7 @@ def judge(link: Link, wire: BadWire, rec, wall_s: float, where: tuple[str, str])
     made = ", ".join(f"{number} {name}" for name, number in wire.injected.items())
     text = f"""## {where[0]}
 
-Written by `{f"python3 tools/hub_soak.py {where[1]}".strip()}`.
+Written by `{f"python3 tools/maintain/hub_soak.py {where[1]}".strip()}`.
 
 {len(rec.t_s)} samples ({rec.t_s[-1] / 60:.0f} minutes of simulated daily motion at {RATE_HZ} Hz, gyroscope biases 0.3 deg/s, accelerometer
 biases 0.1 m/s^2), as fast as the hub gives credit ({link.credit} frames). Faults made in frames to the hub: {made}. A damage flips one

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Write the golden vectors, host_tests/golden/hinge.h, two_dof.h, center.h and chain.h, from the float64 references.
 
-    python3 tools/make_golden.py            write the files
-    python3 tools/make_golden.py --check    exit 1 if the numbers in the repository differ
+    python3 tools/maintain/make_golden.py            write the files
+    python3 tools/maintain/make_golden.py --check    exit 1 if the numbers in the repository differ
 
 Another version of numpy may round differently, so --check compares numbers with a
 tolerance, and everything between them exactly.
@@ -25,7 +25,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-TOOLS = Path(__file__).resolve().parent
+TOOLS = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOOLS / "python"))
 
 from jointcal_tools import lai22, lai22_angles, ols17, ols20  # noqa: E402
@@ -133,7 +133,7 @@ def hinge_header() -> str:
 /// @file
 /// Golden vectors of the hinge in float64, generated: do not edit. Compared by unit/hinge/test_golden.c.
 ///
-/// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
+/// Generator tools/maintain/make_golden.py, seed {SEED}, numpy {np.__version__}.
 #ifndef GOLDEN_HINGE_H
 #define GOLDEN_HINGE_H
 
@@ -191,7 +191,7 @@ def two_dof_header() -> str:
 /// @file
 /// Golden vectors of the 2-DoF joint in float64, generated: do not edit. Compared by unit/two_dof/test_golden.c.
 ///
-/// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
+/// Generator tools/maintain/make_golden.py, seed {SEED}, numpy {np.__version__}.
 #ifndef GOLDEN_TWO_DOF_H
 #define GOLDEN_TWO_DOF_H
 
@@ -244,7 +244,7 @@ def center_header() -> str:
 /// @file
 /// Golden vectors of the joint centre in float64, generated: do not edit. Compared by unit/center/test_golden.c.
 ///
-/// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
+/// Generator tools/maintain/make_golden.py, seed {SEED}, numpy {np.__version__}.
 #ifndef GOLDEN_CENTER_H
 #define GOLDEN_CENTER_H
 
@@ -398,7 +398,7 @@ def chain_header() -> str:
 /// @file
 /// Golden vectors of what ties hip and knee, in float64, generated: do not edit. Compared by unit/chain/test_golden.c.
 ///
-/// Generator tools/make_golden.py, seed {SEED}, numpy {np.__version__}.
+/// Generator tools/maintain/make_golden.py, seed {SEED}, numpy {np.__version__}.
 #ifndef GOLDEN_CHAIN_H
 #define GOLDEN_CHAIN_H
 
@@ -447,7 +447,7 @@ def main() -> int:
             path.write_text(header, newline="\n")
             continue
         found = differences(path.read_text(), header) if path.is_file() else ["no such file"]
-        problems += [f"host_tests/golden/{name} differs from what tools/make_golden.py writes: {each}" for each in found]
+        problems += [f"host_tests/golden/{name} differs from what tools/maintain/make_golden.py writes: {each}" for each in found]
     for problem in problems:
         print(problem, file=sys.stderr)
     return 1 if problems else 0

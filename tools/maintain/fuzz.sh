@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Builds and runs the fuzzers under address and undefined behaviour sanitizers: tools/fuzz.sh [RUNS [TARGET...]]
+# Builds and runs the fuzzers under address and undefined behaviour sanitizers: tools/maintain/fuzz.sh [RUNS [TARGET...]]
 #
 # RUNS executions of the reader (default 20000) and a hundredth as many of push and joints, each of which pushes tens of samples into
-# the engines of the hinge, or of all other joints; of the hub's frames as many as of the reader, and then tools/fuzz.sh frames with as many frames. Inputs that reach new code are kept in build/fuzz; host_tests/fuzz/corpus is where every run starts. tools/fuzz.sh merge copies what is worth keeping there.
+# the engines of the hinge, or of all other joints; of the hub's frames as many as of the reader, and then `fuzz.sh frames` with ten
+# times as many frames. Inputs that reach new code are kept in build/fuzz; host_tests/fuzz/corpus is where every run starts.
+# `fuzz.sh merge` copies what is worth keeping there.
 set -euo pipefail
-cd "$(dirname "$0")/.."
-source tools/packages.sh
+cd "$(dirname "$0")/../.."
+source tools/maintain/packages.sh
 need_packages clang-14 libclang-rt-14-dev
 
-# tools/fuzz.sh frames [COUNT]: feeds COUNT (default 10 million) random and damaged frames to the decoder and holds what it
+# tools/maintain/fuzz.sh frames [COUNT]: feeds COUNT (default 10 million) random and damaged frames to the decoder and holds what it
 # accepts against the odds of the CRC; 10 million and more write docs/measurements/frames.md.
 frames() {
     local count=$1 report=build/fuzz/frames.md
@@ -20,7 +22,7 @@ frames() {
     echo "run_frames: $count frames (report: $report)"
     build/fuzz/run_frames "$count" > build/fuzz/run_frames.txt || { cat build/fuzz/run_frames.txt >&2 && exit 1; }
     {
-        printf '# Random and damaged frames\n\nWritten by `tools/fuzz.sh frames %s`, under address and undefined behaviour sanitizers.\n\n' "$count"
+        printf '# Random and damaged frames\n\nWritten by `tools/maintain/fuzz.sh frames %s`, under address and undefined behaviour sanitizers.\n\n' "$count"
         printf 'Pieces are what the decoder had to judge: a damage that makes a zero makes two. Accepted: frames that came out of a\n'
         printf 'damaged piece. Frames that the damage left as they were do not count; they must be accepted, and were.\n\n'
         printf '| kind | frames | pieces | accepted |\n| --- | --- | --- | --- |\n'

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# Line and branch coverage of lib/ by the C tests: tools/coverage.sh. Details in build/coverage/index.html.
+# Line and branch coverage of lib/ by the C tests: tools/maintain/coverage.sh. Details in build/coverage/index.html.
 set -euo pipefail
-cd "$(dirname "$0")/.."
-source tools/packages.sh
+cd "$(dirname "$0")/../.."
+source tools/maintain/packages.sh
 need_packages "${build_packages[@]}" xz-utils gcovr
-tools/unity.sh
+tools/maintain/unity.sh
 
 cmake --preset host-coverage > /dev/null
 cmake --build --preset host-coverage > /dev/null

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Write the bundled demo recordings tools/demo/{hinge,two_dof,chain}_demo.csv and their truths, .json.
 
-    python3 tools/make_demo.py            write all
-    python3 tools/make_demo.py --check    exit 1 if the files in the repository differ
+    python3 tools/maintain/make_demo.py            write all
+    python3 tools/maintain/make_demo.py --check    exit 1 if the files in the repository differ
 
 Hinge: rest, then motion with a stiff joint (nothing to learn about the axis),
 then informative motion: 30 s at 50 Hz with realistic disturbances.
@@ -18,7 +18,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-TOOLS = Path(__file__).resolve().parent
+TOOLS = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOOLS / "python"))
 
 from jointcal_tools.recordings import write_csv  # noqa: E402
@@ -55,12 +55,12 @@ def write_demo(folder: Path) -> None:
     for name, rec in (("hinge_demo", simulate_hinge(HINGE)), ("two_dof_demo", simulate_two_dof(TWO_DOF))):
         write_csv(folder / f"{name}.csv", rec, digits=DIGITS)
         # The heading offset of computed orientations is not that of the simulated ones, which no file holds.
-        truth = {**rec.truth(), "source": "simulated (tools/make_demo.py)"}
+        truth = {**rec.truth(), "source": "simulated (tools/maintain/make_demo.py)"}
         truth.pop("heading_offset_deg", None)
         write_truth(folder / f"{name}.json", truth)
     chain = simulate_chain(CHAIN)
     write_csv(folder / "chain_demo.csv", chain.first_two(), digits=DIGITS, extra=chain.third_columns())
-    write_truth(folder / "chain_demo.json", {**chain.truth(), "source": "simulated (tools/make_demo.py)"})
+    write_truth(folder / "chain_demo.json", {**chain.truth(), "source": "simulated (tools/maintain/make_demo.py)"})
 
 
 def main() -> int:
@@ -75,7 +75,7 @@ def main() -> int:
         different = [name for name in names
                      if not (DEMO / name).is_file() or (DEMO / name).read_bytes() != (Path(folder) / name).read_bytes()]
     for name in different:
-        print(f"tools/demo/{name} differs from what tools/make_demo.py writes", file=sys.stderr)
+        print(f"tools/demo/{name} differs from what tools/maintain/make_demo.py writes", file=sys.stderr)
     return 1 if different else 0
 
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Break one formula at a time in a copy of the tree and see whether a unit test fails.
 
-    python3 tools/mutate.py                   all mutations of tools/mutation_list.py, docs/measurements/mutations.md
-    python3 tools/mutate.py --only TEXT ...   those whose file or text holds one of these; prints, writes nothing
+    python3 tools/maintain/mutate.py                   all of mutation_list.py; writes docs/measurements/mutations.md
+    python3 tools/maintain/mutate.py --only TEXT ...   those whose file or text holds one of these; prints, writes nothing
 
 Exit 1 if a mutation survives that has no reason in SURVIVORS. The tree itself is never
 touched: each worker has its own copy with an incremental build.
@@ -25,7 +25,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 from mutation_list import MUTATIONS, SURVIVORS  # noqa: E402
 
-ROOT = Path(__file__).resolve().parent.parent
+ROOT = Path(__file__).resolve().parents[2]
 TABLE = ROOT / "docs" / "measurements" / "mutations.md"
 PARTS = ("CMakeLists.txt", "CMakePresets.json", "include", "lib", "port", "host_tests", "tools", "README.md")
 UNITY = Path("build") / "unity"
@@ -128,7 +128,7 @@ def cell(text: str) -> str:
 
 def write_table(outcomes: list[Outcome]) -> None:
     killed = sum(outcome.killed for outcome in outcomes)
-    lines = ["# Mutations", "", "Written by `python3 tools/mutate.py`.", "",
+    lines = ["# Mutations", "", "Written by `python3 tools/maintain/mutate.py`.", "",
              f"{len(outcomes)} mutations of formulas (sign, factor, index, comparison), one at a time: {killed} make a "
              f"unit test fail, {len(outcomes) - killed} do not.", "",
              "| file | text | becomes | what it breaks | noticed by |", "| --- | --- | --- | --- | --- |"]

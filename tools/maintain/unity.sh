@@ -6,7 +6,7 @@
 # read with a private apt configuration so that the system's own stays as it is. Second choice is a source release on PyPI.
 # Both are pinned by SHA-256.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 
 ntpsec_tar=ntpsec_1.2.2+dfsg1.orig.tar.xz
 ntpsec_sha256=53e527e3d04d551d41af2d359c2715c2de5f5bfa2a695d4ec1a811b3e9137f63
