@@ -43,6 +43,8 @@ def angle_columns(table: Table, asked: Sequence[str]) -> list[str]:
         named = {plain(name): name for name in table.names}
         missing = [name for name in asked if name not in table.names and name not in named]
         table.need(missing)
+        if len(asked) > len(COLOURS):
+            raise RefusedError("--columns", f"{len(asked)} angles; at most {len(COLOURS)} can be told apart")
         return [name if name in table.names else named[name] for name in asked]
     found = [name for name in table.names if name not in TIMES and plain(name) not in NO_ANGLES and
              (name.endswith("_deg") or table.separator == "\t") and not is_reference(name)]
@@ -62,7 +64,7 @@ def reference_columns(table: Table, angles: Sequence[str], asked: Sequence[str])
     """Which column belongs to which angle: asked in the angles' order, else by name, else the only one to the first angle."""
     if asked:
         if len(asked) > len(angles):
-            raise RefusedError("--reference-column", f"{len(asked)} columns for {len(angles)} angle{'s' if len(angles) > 1 else ''}")
+            raise RefusedError("--reference-column", f"{len(asked)} columns for {len(angles)} of angles")
         table.need(asked)
         return dict(enumerate(asked))
     there = [name for name in table.names if is_reference(name)]
@@ -195,7 +197,8 @@ def read_angles(path: Path, columns: Sequence[str], reference: tuple[Path | None
     reference_table = Table(reference[0]) if reference[0] else table
     references = reference_columns(reference_table, names, reference[1])
     if not references and reference[0]:
-        raise RefusedError(reference[0], "no column such as ref_flexion_deg; name it with --reference-column", reference_table.header_line)
+        raise RefusedError(reference[0], "no column such as ref_flexion_deg; name it with --reference-column",
+                           reference_table.header_line)
     series = Series(table, names, Clock(*part_s), True)
     beside = Series(reference_table, list(references.values()), Clock(*part_s), False) if references else None
     difference = Difference(len(references))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
@@ -23,11 +24,11 @@ PANEL_HEIGHTS = (3.2, 0.35, 1.2, 1.6)
 HEIGHT_MM = {"wide": 215.0, "double": 150.0, "single": 135.0}
 
 
-def draw_accuracy(panel: Axes, told: Told, max_bound: float, style: Style) -> None:
-    joint, good_to = told.joint, told.truth.good_to if told.truth else None
+def draw_curves(panel: Axes, told: Told, style: Style) -> tuple[np.ndarray, list[Artist], list[str]]:
+    """Errors and bounds; returns the values shown, the legend's entries, and what has no bound."""
     errors = told.truth is not None
-    shown, handles = [], []
-    for k, label in enumerate(joint.labels):
+    shown, handles, unbounded = [], [], []
+    for k, label in enumerate(told.joint.labels):
         colour = COLOURS[k]
         if errors:
             t_s, values = told.errors.trace(k)
@@ -37,17 +38,24 @@ def draw_accuracy(panel: Axes, told: Told, max_bound: float, style: Style) -> No
         t_s, values = told.bounds.trace(k)
         panel.plot(t_s, values, color=colour, linestyle=DASHED, linewidth=1.5 * style.scale)
         shown.append(values)
-        if not errors and told.bounds.any_finite():
+        unbounded += [] if np.isfinite(values).any() else [label]
+        if not errors and label not in unbounded:
             handles.append(line_handle(style, f"stated 95 % bound, {label}", color=colour, linestyle=DASHED))
     values = np.concatenate(shown)
-    values = values[np.isfinite(values)]
     if errors:
-        handles += [line_handle(style, "error", color="black"),
-                    line_handle(style, "stated 95 % bound", color="black", linestyle=DASHED)]
+        handles.append(line_handle(style, "error", color="black"))
+    if errors and told.bounds.any_finite():
+        handles.append(line_handle(style, "stated 95 % bound", color="black", linestyle=DASHED))
+    return values[np.isfinite(values)], handles, unbounded
+
+
+def draw_accuracy(panel: Axes, told: Told, max_bound: float, style: Style) -> None:
+    joint, good_to = told.joint, told.truth.good_to if told.truth else None
+    values, handles, unbounded = draw_curves(panel, told, style)
     handles.append(line_handle(style, f"ready below {max_bound:g} {joint.unit}", color="black", linestyle=DOTTED))
     panel.set_ylabel(f"{'angle' if joint.directions else 'distance'}, {joint.unit}")
     if len(values) == 0:
-        draw_empty(panel, f"nothing to draw, because no bound was stated ({told.why_nothing()})", style)
+        draw_empty(panel, f"nothing to draw: {no_bound(unbounded, told)}", style)
         return
     low = min(max(float(np.quantile(values, 0.01)) / 1.5, 1e-3), max_bound / 10.0)
     low = min(low, good_to.value / 3.0) if good_to else low
@@ -56,30 +64,33 @@ def draw_accuracy(panel: Axes, told: Told, max_bound: float, style: Style) -> No
     if good_to:
         handles.append(draw_band(panel, low, good_to.value, good_to.words))
     handles += draw_wrong_pairing(panel, told)
-    if not told.bounds.any_finite():
-        handles = [handle for handle in handles if handle.get_label() != "stated 95 % bound"]
-    set_legend(panel, handles, "" if told.bounds.any_finite() else style.wrapped(f"no bound was stated ({told.why_nothing()})"))
+    set_legend(panel, handles, style.wrapped(no_bound(unbounded, told)) if unbounded else "")
     panel.grid(True, which="major")
+
+
+def no_bound(labels: list[str], told: Told) -> str:
+    of = "" if len(labels) == len(told.joint.labels) else f" of {' and '.join(labels)}"
+    return f"no bound was stated{of} ({told.why_nothing()})"
 
 
 def draw_wrong_pairing(panel: Axes, told: Told) -> list[Patch]:
     """A black bar along the top of the panel, where no curve comes."""
-    t_s, wrong = told.wrong_pairing.trace(0)
-    if not (wrong > 0.0).any():
+    spans = told.wrong_pairing.of(True)
+    if not spans:
         return []
-    panel.fill_between(t_s, 0.975, 1.0, where=wrong > 0.0, transform=panel.get_xaxis_transform(), step="post", color="black",
-                       linewidth=0.0)
+    panel.broken_barh(spans, (0.975, 0.025), transform=panel.get_xaxis_transform(), color="black")
     return [Patch(facecolor="black", label="sign pairing wrong")]
 
 
 def draw_status(panel: Axes, told: Told, style: Style) -> None:
-    for status, begin_s, end_s in told.spans:
+    for status in told.status.values():
         colour, hatch = STATUS.get(status, OTHER_STATUS)
-        panel.axvspan(begin_s, end_s, facecolor=colour, hatch=hatch, edgecolor="#666666", linewidth=0.0)
+        panel.broken_barh(told.status.of(status), (0.0, 1.0), facecolor=colour, hatch=hatch, edgecolor="#666666", linewidth=0.0)
+    panel.set_ylim(0.0, 1.0)
     panel.set_yticks([0.5], ["status"])
     panel.tick_params(axis="y", length=0.0)
     handles = [Patch(facecolor=STATUS.get(name, OTHER_STATUS)[0], hatch=STATUS.get(name, OTHER_STATUS)[1], edgecolor="#666666",
-                     linewidth=0.5 * style.scale, label=name) for name in told.statuses]
+                     linewidth=0.5 * style.scale, label=name) for name in told.status.values()]
     if told.ready_s:
         handles.append(line_handle(style, f"first ready at {told.ready_s[0]:.1f} s", color=READY, linewidth=style.scale))
     set_legend(panel, handles)
@@ -104,7 +115,7 @@ def draw_others(panel: Axes, told: Told, style: Style) -> None:
         return
     if joint.hinge:
         panel.axhline(1.0, color="black", linewidth=0.8 * style.scale, linestyle=DOTTED)
-        use_log_axis(panel, 0.8, max(10.0, 1.5 * float(values.max())))
+        use_log_axis(panel, min(0.8, max(float(values.min()) / 1.3, 1e-3)), max(10.0, 1.5 * float(values.max())))
     elif joint.others_log:
         use_log_axis(panel, *log_limits(values, 4.0))
     if len(joint.others) > 1:

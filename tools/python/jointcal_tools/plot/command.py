@@ -62,10 +62,10 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("file", metavar="FILE", type=Path, help="recording (CSV); with --joint angles a file of angles")
     parser.add_argument("-o", "--out", type=Path, required=True, help="figure to write: .png, .pdf or .svg")
     parser.add_argument("--joint", choices=[*JOINTS, "angles"], default="hinge", help="what to draw (default hinge)")
-    parser.add_argument("--from", dest="from_s", type=float, metavar="S", default=float("-inf"), help="draw from this time on")
-    parser.add_argument("--until", type=float, metavar="S", default=float("inf"), help="draw up to this time")
-    parser.add_argument("--reference-good-to", metavar="X", help="grey band for what truth or reference is good for: 1deg, 7mm, 5%% "
-                        "(default: as the .json says)")
+    parser.add_argument("--from", dest="from_s", type=float, metavar="S", default=float("-inf"), help="draw from then on")
+    parser.add_argument("--until", type=float, metavar="S", default=float("inf"), help="draw until then")
+    parser.add_argument("--reference-good-to", metavar="X", help="grey band for what truth or reference is good for: 1deg, 7mm, "
+                        "5%% (default: as the .json says)")
 
     calibration = parser.add_argument_group("a calibration")
     calibration.add_argument("--truth", type=Path, metavar="JSON", help="file with the true vectors (default: RECORDING.json if it "
@@ -76,8 +76,8 @@ def make_parser() -> argparse.ArgumentParser:
     calibration.add_argument("--program", type=Path, default=PROGRAM, help="default: build/host/jointcal")
 
     angles = parser.add_argument_group("angles")
-    angles.add_argument("--columns", metavar="NAMES", default="", help="angles to draw, with commas between (default: all in the "
-                        "file but the heading offset, four at most)")
+    angles.add_argument("--columns", metavar="NAMES", default="", help="angles to draw, at most four, with commas between "
+                        "(default: all but the heading offset)")
     angles.add_argument("--reference", type=Path, metavar="FILE", help="file with reference angles over the same time (default: "
                         "the file of angles, if it has some)")
     angles.add_argument("--reference-column", metavar="NAMES", default="", help="its columns in the order of the angles (default: "
@@ -98,7 +98,7 @@ def make_parser() -> argparse.ArgumentParser:
 def check_options(args: argparse.Namespace) -> None:
     """Options that would change nothing are mistakes."""
     is_angles = args.joint == "angles"
-    wrong = (("truth", "jsonl", "max_bound") if is_angles else ("columns", "reference", "reference_column", "zero_to_reference"))
+    wrong = ("truth", "jsonl", "max_bound") if is_angles else ("columns", "reference", "reference_column", "zero_to_reference")
     for name in wrong:
         if getattr(args, name):
             option = "--" + name.replace("_", "-")

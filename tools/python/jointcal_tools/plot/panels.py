@@ -30,7 +30,7 @@ def draw_empty(panel: Axes, why: str, style: Style) -> None:
     panel.set_yscale("linear")
     panel.yaxis.set_major_locator(NullLocator())
     panel.yaxis.set_minor_locator(NullLocator())
-    panel.text(0.5, 0.5, style.wrapped(why), transform=panel.transAxes, ha="center", va="center", color=NOTE)
+    panel.text(0.5, 0.5, style.wrapped(why, 0.65), transform=panel.transAxes, ha="center", va="center", color=NOTE)
 
 
 def draw_title(figure: plt.Figure, title: str, style: Style) -> None:
@@ -53,8 +53,12 @@ def log_ticks(low: float, high: float, most: int = MOST_TICKS) -> list[float]:
         ticks = [tick for tick in ticks if low <= tick <= high]
         if len(ticks) >= 3:
             return ticks[::math.ceil(len(ticks) / most)]
-    ticks = MaxNLocator(nbins=min(5, most), steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
-    return [float(tick) for tick in ticks if low <= tick <= high]
+    for count in range(3, 2 * most):
+        ticks = MaxNLocator(nbins=count, steps=[1, 2, 2.5, 5, 10]).tick_values(low, high)
+        ticks = [float(tick) for tick in ticks if low <= tick <= high]
+        if len(ticks) >= 3:
+            break
+    return ticks
 
 
 def use_log_axis(panel: Axes, low: float, high: float) -> None:

@@ -14,8 +14,9 @@ PIECE_BYTES = 1 << 20
 HEADER_BYTES = 1 << 20
 BAR_WIDTH = 40
 # What is often given in place of a text file, by its first bytes.
-MAGIC = ((b"\x1f\x8b", "compressed by gzip; unpack it first"), (b"PK\x03\x04", "a zip archive or an .xlsx workbook; save it as CSV"),
-         (b"\xff\xfe", "UTF-16 text; save it as UTF-8"), (b"\xfe\xff", "UTF-16 text; save it as UTF-8"))
+MAGIC = ((b"\x1f\x8b", "compressed by gzip; unpack it first"),
+         (b"PK\x03\x04", "a zip archive or an .xlsx workbook; save it as CSV"), (b"\xff\xfe", "UTF-16 text; save it as UTF-8"),
+         (b"\xfe\xff", "UTF-16 text; save it as UTF-8"))
 
 
 class RefusedError(Exception):
@@ -112,9 +113,8 @@ class Table:
         rows = 0
         try:
             with self._open() as file:
-                for _ in range(self.header_line):
-                    file.readline()
-                number, done = self.header_line + 1, 0
+                done = sum(len(file.readline()) for _ in range(self.header_line))
+                number = self.header_line + 1
                 while lines := file.readlines(PIECE_BYTES):
                     piece = self._numbers(lines, columns, number)
                     rows += len(piece)

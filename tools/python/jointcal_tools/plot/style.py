@@ -47,10 +47,10 @@ class Style:
         """Width and height; the height given if none was asked for."""
         return self.width_mm / MM_PER_INCH, (self.height_mm or height_mm) / MM_PER_INCH
 
-    def wrapped(self, text: str) -> str:
-        """In lines that fit beside the labels of the axes; a letter is half as wide as it is high."""
+    def wrapped(self, text: str, share: float = 0.8) -> str:
+        """In lines of that share of the figure's width; a letter is half as wide as it is high."""
         letter_mm = 0.5 * self.font_size * MM_PER_INCH / 72.0
-        return textwrap.fill(text, max(20, int(0.8 * self.width_mm / letter_mm)))
+        return textwrap.fill(text, max(20, int(share * self.width_mm / letter_mm)))
 
     def context(self) -> AbstractContextManager:
         """Within it matplotlib draws in this style."""

@@ -76,6 +76,29 @@ def errors_of(vectors: np.ndarray, truth: np.ndarray, joint: Joint) -> np.ndarra
     return np.degrees(np.arctan2(across, np.abs((vectors * unit).sum(axis=2))))
 
 
+class Spans:
+    """How long something holds: each value until the next line."""
+
+    def __init__(self) -> None:
+        self.spans: list[tuple[object, float, float]] = []  # value, from, until
+
+    def add(self, t_s: float, value: object) -> None:
+        if self.spans:
+            before, begin_s, _ = self.spans[-1]
+            self.spans[-1] = (before, begin_s, t_s)
+            if before == value:
+                return
+        self.spans.append((value, t_s, t_s))
+
+    def values(self) -> list[object]:
+        """In the order in which they came, each once."""
+        return list(dict.fromkeys(value for value, _, _ in self.spans))
+
+    def of(self, value: object) -> list[tuple[float, float]]:
+        """Begin and length of each."""
+        return [(begin_s, end_s - begin_s) for held, begin_s, end_s in self.spans if held == value]
+
+
 class Told:
     """The program's lines as curves, times of `ready` and spans of status."""
 
@@ -84,8 +107,8 @@ class Told:
         self.bounds = Reducer(len(joint.keys))
         self.errors = Reducer(len(joint.keys))
         self.others = Reducer(len(joint.others))
-        self.wrong_pairing = Reducer(1)  # 1 where the axes' common sign is wrong, else 0
-        self.spans: list[tuple[str, float, float]] = []  # status, from, until
+        self.wrong_pairing = Spans()  # of a hinge: whether the axes' common sign is wrong
+        self.status = Spans()
         self.ready_s: list[float] = []  # times at which `ready` was entered, in the whole recording
         self.last: dict[str, object] = {}
         self._rows: list[tuple[float, np.ndarray, np.ndarray, np.ndarray]] = []
@@ -99,14 +122,15 @@ class Told:
             if self.clock.over:
                 break
         self._reduce()
-        if not self.spans:
+        if not self.status.spans:
             raise self.clock.none_used(self.place, "line of JSON")
-        for curves in (self.bounds, self.errors, self.others, self.wrong_pairing):
+        for curves in (self.bounds, self.errors, self.others):
             curves.finish()
         return self
 
     def _take(self, text: str, number: int) -> None:
         joint = self.joint
+        foreign = f"this is no line of jointcal {joint.command} --json"
         try:
             line = json.loads(text)
         except json.JSONDecodeError as error:
@@ -120,9 +144,9 @@ class Told:
                    np.array([other.factor * numbers(line[other.key], 1)[0] for other in joint.others]))
             status, event = str(line["status"]), line["event"]
         except KeyError as error:
-            raise RefusedError(self.place, f"no {error.args[0]}: this is no line of jointcal {joint.command} --json", number) from None
+            raise RefusedError(self.place, f"no {error.args[0]}: {foreign}", number) from None
         except (TypeError, ValueError):
-            raise RefusedError(self.place, f"this is no line of jointcal {joint.command} --json", number) from None
+            raise RefusedError(self.place, foreign, number) from None
         if event == "ready":
             self.ready_s.append(t_s)
         # `ready` and `end` may come at the time of an estimate; a later line of one time tells nothing new but its event.
@@ -131,16 +155,7 @@ class Told:
             self._rows.append(row)
         if inside:
             self.last = line
-            self._span(status, t_s)
-
-    def _span(self, status: str, t_s: float) -> None:
-        """A status holds until the next line."""
-        if self.spans:
-            before, begin_s, _ = self.spans[-1]
-            self.spans[-1] = (before, begin_s, t_s)
-            if before == status:
-                return
-        self.spans.append((status, t_s, t_s))
+            self.status.add(t_s, status)
 
     def _reduce(self) -> None:
         if not self._rows:
@@ -155,12 +170,8 @@ class Told:
         self.errors.add(t_s, errors_of(vectors, self.truth.vectors, self.joint))
         if self.joint.hinge:
             along = (vectors * self.truth.vectors).sum(axis=2)
-            self.wrong_pairing.add(t_s, (along[:, :1] * along[:, 1:] < 0.0).astype(float))
-
-    @property
-    def statuses(self) -> list[str]:
-        """In the order in which they came, each once."""
-        return list(dict.fromkeys(status for status, _, _ in self.spans))
+            for time_s, product in zip(t_s, along[:, 0] * along[:, 1], strict=True):
+                self.wrong_pairing.add(float(time_s), bool(product < 0.0))
 
     def complete(self) -> bool:
         return self.last.get("event") == "end"
