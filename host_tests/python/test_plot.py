@@ -356,6 +356,13 @@ class Calibrations(Folder):
         self.assertAlmostEqual(lines.bounds.trace(0)[0][-1], 12.0)
         self.assertFalse(lines.complete())
 
+    def test_a_clock_that_began_long_ago(self):
+        figure, panel = plt.subplots()
+        panels.link_times([panel], 1.7e9 + 0.25, 1.7e9 + 40.0)
+        figure.canvas.draw()
+        self.assertEqual([label.get_text() for label in panel.get_xticklabels()], ["10", "20", "30", "40"])
+        self.assertEqual(panel.get_xlabel(), "time since 1700000000 s, s")
+
     def test_the_program_draws_its_demo(self):
         if not PROGRAM.is_file():
             self.skipTest(f"{PROGRAM} is not built")
@@ -505,6 +512,7 @@ class Refusals(Folder):
         self.check("bad.csv:5: a second header line", "\n".join([*rows[:4], rows[0]]))
         self.check("bad.csv:3:7: gyr1_x: 'fast' is not a number",
                    "\n".join([*rows[:2], re.sub(",[^,]*", ",fast", rows[2], count=1)]))
+        self.check("bad.csv:1: 'sep=,' stands where the columns' names belong; take this line out", "sep=,\n" + good)
         self.check("bad.csv: a zero byte: this is not a text file", "\0\0")
         self.check("bad.csv: no row has a time", "\n".join([rows[0], *(re.sub("^[^,]*", "nan", row) for row in rows[1:])]))
         self.check("bad.csv: no row in the part asked for, from 100 s", good, "--from", "100")
@@ -517,6 +525,12 @@ class Refusals(Folder):
         rows = recording_text(50).splitlines()
         path = self.write("gaps.csv", "\n".join([*rows[:10], "0.18" + "," * 18, "", *rows[11:]]))
         self.assertEqual(motion.read_motion(path, JOINTS["hinge"], *ALL_TIME).rows, 50)
+
+    def test_lines_may_end_as_windows_ends_them(self):
+        path = self.folder / "windows.csv"
+        path.write_bytes(recording_text(50).replace("\n", "\r\n").encode())
+        self.assertEqual(motion.read_motion(path, JOINTS["chain"], *ALL_TIME).rates.trace(2)[0].tolist(),
+                         motion.read_motion(self.recording(50), JOINTS["chain"], *ALL_TIME).rates.trace(2)[0].tolist())
 
     def test_rows_out_of_order_are_said(self):
         rows = recording_text(50).splitlines()
@@ -557,7 +571,9 @@ class Refusals(Folder):
                      "angles", "--zero-to-reference")
         self.refused("recording.csv:1: no column such as ref_flexion_deg; name it with --reference-column", path, "--joint",
                      "angles", "--reference", recording)
-        self.refused("angles.csv:1: missing column elbow", path, "--joint", "angles", "--columns", "elbow")
+        self.refused("angles.csv:1: missing column elbow", path, "--joint", "angles", "--angles", "elbow")
+        self.refused("many.csv:1: 5 columns of angles, a_deg, b_deg, c_deg, ...: choose at most 4 with --angles",
+                     self.write("many.csv", "t_s,a_deg,b_deg,c_deg,d_deg,e_deg\n1,1,1,1,1,1\n"), "--joint", "angles")
         self.refused("angles.sto: no line endheader: this is not a .sto file", self.write("angles.sto", "a\n"), "--joint", "angles")
 
     def test_a_program_that_is_not_built(self):
@@ -591,6 +607,7 @@ class Terminal(Folder):
         self.assertTrue(said.endswith(b" \r"))
 
     def test_help_has_examples(self):
+        self.assertTrue(os.access(ROOT / "tools" / "plot.py", os.X_OK))
         done = subprocess.run([sys.executable, ROOT / "tools" / "plot.py", "--help"], capture_output=True, text=True, check=True)
         self.assertIn("examples:", done.stdout)
         self.assertIn("--joint angles", done.stdout)

@@ -44,7 +44,7 @@ def angle_columns(table: Table, asked: Sequence[str]) -> list[str]:
         missing = [name for name in asked if name not in table.names and name not in named]
         table.need(missing)
         if len(asked) > len(COLOURS):
-            raise RefusedError("--columns", f"{len(asked)} angles; at most {len(COLOURS)} can be told apart")
+            raise RefusedError("--angles", f"{len(asked)} angles; at most {len(COLOURS)} can be told apart")
         return [name if name in table.names else named[name] for name in asked]
     found = [name for name in table.names if name not in TIMES and plain(name) not in NO_ANGLES and
              (name.endswith("_deg") or table.separator == "\t") and not is_reference(name)]
@@ -53,7 +53,10 @@ def angle_columns(table: Table, asked: Sequence[str]) -> list[str]:
                            f"{table.path} --joint hinge --out angles.csv", table.header_line)
     if not found:
         raise RefusedError(table.path, "no column with angles, such as flexion_deg", table.header_line)
-    return found[:len(COLOURS)]
+    if len(found) > len(COLOURS):
+        raise RefusedError(table.path, f"{len(found)} columns of angles, {', '.join(found[:3])}, ...: choose at most "
+                           f"{len(COLOURS)} with --angles", table.header_line)
+    return found
 
 
 def is_reference(name: str) -> bool:

@@ -76,7 +76,7 @@ def make_parser() -> argparse.ArgumentParser:
     calibration.add_argument("--program", type=Path, default=PROGRAM, help="default: build/host/jointcal")
 
     angles = parser.add_argument_group("angles")
-    angles.add_argument("--columns", metavar="NAMES", default="", help="angles to draw, at most four, with commas between "
+    angles.add_argument("--angles", metavar="NAMES", default="", help="angles to draw, at most four, with commas between "
                         "(default: all but the heading offset)")
     angles.add_argument("--reference", type=Path, metavar="FILE", help="file with reference angles over the same time (default: "
                         "the file of angles, if it has some)")
@@ -98,7 +98,7 @@ def make_parser() -> argparse.ArgumentParser:
 def check_options(args: argparse.Namespace) -> None:
     """Options that would change nothing are mistakes."""
     is_angles = args.joint == "angles"
-    wrong = ("truth", "jsonl", "max_bound") if is_angles else ("columns", "reference", "reference_column", "zero_to_reference")
+    wrong = ("truth", "jsonl", "max_bound") if is_angles else ("angles", "reference", "reference_column", "zero_to_reference")
     for name in wrong:
         if getattr(args, name):
             option = "--" + name.replace("_", "-")
@@ -136,7 +136,7 @@ def names_of(text: str) -> list[str]:
 
 
 def plot_angles(args: argparse.Namespace, style: Style) -> None:
-    angles = read_angles(args.file, names_of(args.columns), (args.reference, names_of(args.reference_column)),
+    angles = read_angles(args.file, names_of(args.angles), (args.reference, names_of(args.reference_column)),
                          (args.from_s, args.until), args.zero_to_reference)
     if angles.references:
         angles.good_to = (asked_good_to(args.reference_good_to, "deg") if args.reference_good_to

@@ -78,6 +78,8 @@ class Table:
         with self._open() as file:
             self.header_line = self._skip_sto_head(file) + 1
             header = file.readline(HEADER_BYTES)
+        if header.lower().startswith("sep="):
+            raise RefusedError(path, f"'{header.strip()}' stands where the columns' names belong; take this line out", 1)
         self.names = [name.strip() for name in next(csv.reader([header], delimiter=self.separator), [])]
         if not any(self.names):
             raise RefusedError(path, "there is no line with the columns' names", self.header_line)
