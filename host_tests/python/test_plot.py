@@ -358,7 +358,9 @@ class Calibrations(Folder):
 
     def test_a_clock_that_began_long_ago(self):
         figure, panel = plt.subplots()
-        panels.link_times([panel], 1.7e9 + 0.25, 1.7e9 + 40.0)
+        clock = reading.Clock()
+        clock.use(1.7e9 + np.array([0.25, 40.0]))
+        panels.link_times([panel], clock)
         figure.canvas.draw()
         self.assertEqual([label.get_text() for label in panel.get_xticklabels()], ["10", "20", "30", "40"])
         self.assertEqual(panel.get_xlabel(), "time since 1700000000 s, s")

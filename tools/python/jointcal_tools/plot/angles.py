@@ -296,7 +296,7 @@ def draw_angles(angles: Angles, title: str, style: Style) -> plt.Figure:
         draw_angle(panels[k], angles, k, style)
     if angles.references:
         draw_difference(panels[-1], angles, style)
-    link_times(panels, angles.series.clock.begin_s, angles.series.clock.end_s)
+    link_times(panels, angles.series.clock)
     draw_title(figure, title, style)
     figure.align_ylabels(panels)
     lay_out(figure, style)

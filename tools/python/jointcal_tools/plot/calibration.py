@@ -92,7 +92,7 @@ def draw_status(panel: Axes, told: Told, style: Style) -> None:
     handles = [Patch(facecolor=STATUS.get(name, OTHER_STATUS)[0], hatch=STATUS.get(name, OTHER_STATUS)[1], edgecolor="#666666",
                      linewidth=0.5 * style.scale, label=name) for name in told.status.values()]
     if told.ready_s:
-        handles.append(line_handle(style, f"first ready at {told.ready_s[0]:.1f} s", color=READY, linewidth=style.scale))
+        handles.append(line_handle(style, f"first ready at {told.ready_s[0] - told.zero_s:.1f} s", color=READY, linewidth=style.scale))
     set_legend(panel, handles)
 
 
@@ -157,7 +157,7 @@ def draw_calibration(told: Told, motion: Motion, max_bound: float, title: str, s
     draw_status(panels[1], told, style)
     draw_others(panels[2], told, style)
     draw_excitation(panels[3], motion, told.joint, style)
-    link_times(panels, motion.clock.begin_s, motion.clock.end_s)
+    link_times(panels, motion.clock)
     for panel in panels:
         for ready_s in told.ready_s:
             panel.axvline(ready_s, color=READY, linewidth=0.9 * style.scale, zorder=1.6)
@@ -168,5 +168,5 @@ def draw_calibration(told: Told, motion: Motion, max_bound: float, title: str, s
 
 
 def default_title(recording: str, told: Told) -> str:
-    end = "at the end" if told.complete() else f"at {float(told.last['t_s']):.1f} s"
+    end = "at the end" if told.complete() else f"at {told.end_s:.1f} s"
     return f"{recording}: {told.joint.title}, {told.last.get('engine')} engine; {told.last['status']} {end}"

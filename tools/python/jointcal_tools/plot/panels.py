@@ -14,12 +14,12 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
+from .reading import Clock
 from .style import BAND, NOTE, Style, too_small
 
 DASHED = (0, (4, 1.5))
 DOTTED = (0, (1, 1.5))
 MOST_TICKS = 7
-LONG_AGO_S = 1e6
 
 
 def line_handle(style: Style, label: str, **how: object) -> Line2D:
@@ -78,18 +78,18 @@ def log_limits(values: np.ndarray, least_factor: float) -> tuple[float, float]:
     return middle / half, middle * half
 
 
-def link_times(panels: Sequence[Axes], begin_s: float, end_s: float) -> None:
-    """One axis of time for all panels, with numbers below the last one. Clocks that began long ago are counted from the begin."""
-    end_s = end_s if end_s > begin_s else begin_s + 1.0
+def link_times(panels: Sequence[Axes], clock: Clock) -> None:
+    """One axis of time for all panels, with numbers below the last one."""
+    begin_s, zero_s = clock.begin_s, clock.zero_s
+    end_s = clock.end_s if clock.end_s > begin_s else begin_s + 1.0
     for panel in panels:
         panel.set_xlim(begin_s, end_s)
     panels[-1].set_xlabel("time, s")
-    if abs(begin_s) > LONG_AGO_S:
-        zero_s = math.floor(begin_s)
+    if zero_s:
         ticks = MaxNLocator(nbins=7, steps=[1, 2, 5, 10]).tick_values(begin_s - zero_s, end_s - zero_s)
         panels[-1].xaxis.set_major_locator(FixedLocator([zero_s + tick for tick in ticks if begin_s <= zero_s + tick <= end_s]))
         panels[-1].xaxis.set_major_formatter(FuncFormatter(lambda t_s, _: f"{t_s - zero_s:.5g}"))
-        panels[-1].set_xlabel(f"time since {zero_s:d} s, s")
+        panels[-1].set_xlabel(f"time since {zero_s:.0f} s, s")
 
 
 def set_legend(panel: Axes, handles: Sequence[Artist], head: str = "") -> None:

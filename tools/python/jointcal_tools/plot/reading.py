@@ -13,6 +13,7 @@ import numpy as np
 PIECE_BYTES = 1 << 20
 HEADER_BYTES = 1 << 20
 BAR_WIDTH = 40
+LONG_AGO_S = 1e6
 # What is often given in place of a text file, by its first bytes.
 MAGIC = ((b"\x1f\x8b", "compressed by gzip; unpack it first"),
          (b"PK\x03\x04", "a zip archive or an .xlsx workbook; save it as CSV"), (b"\xff\xfe", "UTF-16 text; save it as UTF-8"),
@@ -186,6 +187,11 @@ class Clock:
             self.begin_s = float(t_s[rows[0]]) if np.isnan(self.begin_s) else self.begin_s
             self.end_s = float(t_s[rows[-1]])
         return rows
+
+    @property
+    def zero_s(self) -> float:
+        """Times are drawn and told from here on: clocks that began long ago are counted from the first row used."""
+        return float(np.floor(self.begin_s)) if abs(self.begin_s) > LONG_AGO_S else 0.0
 
     @property
     def over(self) -> bool:

@@ -102,7 +102,8 @@ class Spans:
 class Told:
     """The program's lines as curves, times of `ready` and spans of status."""
 
-    def __init__(self, place: Path, joint: Joint, truth: Truth | None, clock: Clock):
+    def __init__(self, place: Path, joint: Joint, truth: Truth | None, clock: Clock, zero_s: float = 0.0):
+        self.zero_s = zero_s  # times are told from here on
         self.place, self.joint, self.truth, self.clock = place, joint, truth, clock
         self.bounds = Reducer(len(joint.keys))
         self.errors = Reducer(len(joint.keys))
@@ -173,10 +174,15 @@ class Told:
             for time_s, product in zip(t_s, along[:, 0] * along[:, 1], strict=True):
                 self.wrong_pairing.add(float(time_s), bool(product < 0.0))
 
+    @property
+    def end_s(self) -> float:
+        """Of the last line, as it is told."""
+        return float(self.last["t_s"]) - self.zero_s
+
     def complete(self) -> bool:
         return self.last.get("event") == "end"
 
     def why_nothing(self) -> str:
         """What the program gave as reason, in its own keys."""
         told = ", ".join(f"{key} {self.last[key]}" for key in ("reason", "weak", "hint") if self.last.get(key))
-        return f"{self.last['status']} at {float(self.last['t_s']):.1f} s{f': {told}' if told else ''}"
+        return f"{self.last['status']} at {self.end_s:.1f} s{f': {told}' if told else ''}"
