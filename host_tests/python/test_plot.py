@@ -320,6 +320,13 @@ class EmptyPanels(Folder):
         figure = angles.draw_angles(read, "", STYLES[None])
         self.assertEqual(self.notes(figure), ["no time in common: angles 0.0 to 9.0 s, reference 30.0 to 39.0 s"])
 
+    def test_a_reference_only_where_there_are_no_angles(self):
+        path = self.write("angles.csv", "t_s,flexion_deg,ref_flexion_deg\n" + "".join(
+            f"{k},{k if k < 50 else ''},{k if k >= 50 else ''}\n" for k in range(100)))
+        read = angles.read_angles(path, [], (None, []), ALL_TIME, True)
+        figure = angles.draw_angles(read, "", STYLES[None])
+        self.assertEqual(self.notes(figure), ["nothing to compare: nowhere are both an angle and a reference"])
+
 
 class Calibrations(Folder):
     def test_errors_bounds_and_status_are_those_of_the_lines(self):

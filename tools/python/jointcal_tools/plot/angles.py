@@ -281,8 +281,10 @@ def why_no_difference(angles: Angles) -> str:
     if not angles.reference.curves.any_finite():
         return "nothing to compare: the reference is empty"
     ours, theirs = angles.series.clock, angles.reference.clock
-    return (f"no time in common: angles {ours.begin_s:.1f} to {ours.end_s:.1f} s, "
-            f"reference {theirs.begin_s:.1f} to {theirs.end_s:.1f} s")
+    if theirs.begin_s > ours.end_s or theirs.end_s < ours.begin_s:
+        return (f"no time in common: angles {ours.begin_s:.1f} to {ours.end_s:.1f} s, "
+                f"reference {theirs.begin_s:.1f} to {theirs.end_s:.1f} s")
+    return "nothing to compare: nowhere are both an angle and a reference"
 
 
 def draw_angles(angles: Angles, title: str, style: Style) -> plt.Figure:

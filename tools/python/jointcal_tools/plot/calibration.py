@@ -92,7 +92,8 @@ def draw_status(panel: Axes, told: Told, style: Style) -> None:
     handles = [Patch(facecolor=STATUS.get(name, OTHER_STATUS)[0], hatch=STATUS.get(name, OTHER_STATUS)[1], edgecolor="#666666",
                      linewidth=0.5 * style.scale, label=name) for name in told.status.values()]
     if told.ready_s:
-        handles.append(line_handle(style, f"first ready at {told.ready_s[0] - told.zero_s:.1f} s", color=READY, linewidth=style.scale))
+        first_s = told.ready_s[0] - told.zero_s
+        handles.append(line_handle(style, f"first ready at {first_s:.1f} s", color=READY, linewidth=style.scale))
     set_legend(panel, handles)
 
 
