@@ -555,6 +555,9 @@ class Refusals(Folder):
                               ("lines.jsonl:1: this is no line of jointcal hinge --json", "[1, 2]"),
                               ("lines.jsonl: no line of JSON has a time", "")):
             self.refused(message, recording, "--jsonl", self.write("lines.jsonl", text))
+        end = {"t_s": None, "samples": 9, "rejected_by": {"not_finite": 2, "out_of_range": 7, "gap": 0}}
+        self.refused("lines.jsonl: jointcal used none of the 9 rows: 2 not finite, 7 out of range", recording, "--jsonl",
+                     self.write("lines.jsonl", json.dumps(end)))
         self.refused("none.jsonl: No such file or directory", recording, "--jsonl", self.folder / "none.jsonl")
 
     def test_truth(self):

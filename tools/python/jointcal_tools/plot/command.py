@@ -123,7 +123,7 @@ def plot_calibration(args: argparse.Namespace, style: Style) -> None:
         place, lines = args.jsonl, stored_lines(args.jsonl)
     else:
         options = ["--engine", args.engine, "--max-bound", f"{max_bound / joint.per_unit:g}"]
-        place, lines = args.program, run_program(args.program, joint, args.file, motion.seconds, options)
+        place, lines = args.file, run_program(args.program, joint, args.file, motion.seconds, options)
     with closing(lines):
         told = Told(place, joint, truth, Clock(args.from_s, args.until), motion.clock.zero_s).read(lines)
     title = default_title(args.file.name, told) if args.title is None else args.title

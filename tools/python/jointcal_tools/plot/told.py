@@ -112,6 +112,7 @@ class Told:
         self.status = Spans()
         self.ready_s: list[float] = []  # times at which `ready` was entered, in the whole recording
         self.last: dict[str, object] = {}
+        self._untimed: dict[str, object] = {}  # a line from before the first row that was used
         self._rows: list[tuple[float, np.ndarray, np.ndarray, np.ndarray]] = []
 
     def read(self, lines: Iterable[str]) -> Told:
@@ -124,10 +125,18 @@ class Told:
                 break
         self._reduce()
         if not self.status.spans:
-            raise self.clock.none_used(self.place, "line of JSON")
+            raise self._no_row_used() or self.clock.none_used(self.place, "line of JSON")
         for curves in (self.bounds, self.errors, self.others):
             curves.finish()
         return self
+
+    def _no_row_used(self) -> RefusedError | None:
+        """What the program says of a recording of which it uses nothing."""
+        causes = self._untimed.get("rejected_by")
+        if self.clock.outside or not isinstance(causes, dict):
+            return None
+        words = ", ".join(f"{count} {cause.replace('_', ' ')}" for cause, count in causes.items() if count)
+        return RefusedError(self.place, f"jointcal used none of the {self._untimed.get('samples')} rows: {words}")
 
     def _take(self, text: str, number: int) -> None:
         joint = self.joint
@@ -138,6 +147,7 @@ class Told:
             raise RefusedError(self.place, f"not JSON: {error.msg}", number, error.colno) from None
         try:
             if line["t_s"] is None:
+                self._untimed = line
                 return
             t_s = float(line["t_s"])
             row = (t_s, np.array([numbers(line[key], 3) for key in joint.keys]),
