@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Mutations of formulas in lib/ and include/ for tools/mutate.py: (file, old text, new text, what it breaks).
+"""Mutations of formulas in lib/ and include/ for mutate.py: (file, old text, new text, what it breaks).
 
 The old text occurs exactly once in its file. SURVIVORS names those that no test can
 tell from the original, with the reason.
