@@ -11,7 +11,8 @@
 #define LENGTH2_MIN 0.9025f
 #define LENGTH2_MAX 1.1025f
 
-/// As in gate.c: time over which bad samples are counted, s, for samples that are this far apart.
+/// As in gate.c: share of bad samples that may be lived with, and the weight of the newest.
+#define BAD_SHARE_MAX 0.2f
 #define BAD_STEP 0.02f
 
 static float length2(jcal_quat_t q)
@@ -70,7 +71,12 @@ jcal_reject_t jcal_orientation_gate_check(jcal_orientation_gate_t *self, const j
     if (outcome != JCAL_REJECT_NONE) {
         self->rejected_by[outcome] += 1u;
     }
-    const float bad = ((outcome == JCAL_REJECT_NONE) || (outcome == JCAL_REJECT_GAP)) ? 0.0f : 1.0f;
+    const float bad = (outcome == JCAL_REJECT_NONE) ? 0.0f : 1.0f;
     self->bad_share += BAD_STEP * (bad - self->bad_share);
     return outcome;
+}
+
+jcal_reason_t jcal_orientation_gate_complaint(const jcal_orientation_gate_t *self)
+{
+    return (self->bad_share > BAD_SHARE_MAX) ? JCAL_REASON_BAD_SAMPLES : JCAL_REASON_NONE;
 }

@@ -3,6 +3,7 @@
 /// Settings of both engines of the joint with two axes. See two_dof_config.h.
 #include "jointcal/two_dof_config.h"
 
+#include "joint/sign.h"
 #include "math/angle.h"
 #include "math/scalar.h"
 
@@ -31,6 +32,9 @@ typedef struct {
 
 const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config)
 {
+    if (config == NULL) {
+        return "config";
+    }
     const field_t fields[] = {
         {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
         {"mismatch_rad", config->mismatch_rad, 0.0f, 0.1f},
@@ -49,6 +53,12 @@ const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config)
     if ((constraint < (int)JCAL_CONSTRAINT_COMBINED) || (constraint > (int)JCAL_CONSTRAINT_ORIENTATION)) {
         return "constraint";
     }
+    if (!jcal_sign_may_be_toward(config->axis1_toward)) {
+        return "axis1_toward";
+    }
+    if (!jcal_sign_may_be_toward(config->axis2_toward)) {
+        return "axis2_toward";
+    }
     return jcal_gate_config_check(&config->gate);
 }
 
@@ -64,7 +74,7 @@ jcal_two_dof_window_config_t jcal_two_dof_window_config_default(void)
 
 const char *jcal_two_dof_window_config_check(const jcal_two_dof_window_config_t *config)
 {
-    const char *const wrong = jcal_two_dof_config_check(&config->two_dof);
+    const char *const wrong = jcal_two_dof_config_check((config == NULL) ? NULL : &config->two_dof);
     if (wrong != NULL) {
         return wrong;
     }

@@ -23,12 +23,13 @@ void jcal_two_dof_judge(jcal_two_dof_verdict_t *verdict, const jcal_two_dof_conf
     const jcal_two_dof_search_t *const search = of->search;
     float inverse[JCAL_SYM_SIZE(JCAL_TWO_DOF_UNKNOWNS)];
     const jcal_two_dof_evidence_t evidence = {
+        .point = &search->best.point,
         .covariance = covariance_of(of, inverse) ? inverse : NULL,
         .parts = {search->parts[0], search->parts[1]},
         .moving_s = of->landscape->moving_s,
         .age_s = of->age_s,
         .sine = jcal_two_dof_mean(of->landscape->moments, &search->best.point),
-        .bad_share = of->bad_share,
+        .complaint = of->complaint,
         .cost = search->cost,
         .rival_cost = search->rival_cost,
         .has_rival = search->has_rival,

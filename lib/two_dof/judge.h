@@ -11,8 +11,8 @@
 typedef struct {
     const jcal_two_dof_search_t *search;  ///< Its `lin` is that of the moments at the estimate, without the prior.
     const jcal_two_dof_landscape_t *landscape;
-    float age_s;      ///< Mean age of what is in the moments.
-    float bad_share;  ///< Of the gate.
+    float age_s;              ///< Mean age of what is in the moments.
+    jcal_reason_t complaint;  ///< Of the gate.
 } jcal_two_dof_case_t;
 
 /// verdict <- bounds and status of the estimate.

@@ -3,6 +3,8 @@
 /// What the engines of the 2-DoF joint tell their user. See two_dof/result.h.
 #include "two_dof/result.h"
 
+#include "joint/head.h"
+#include "joint/sign.h"
 #include "jointcal/vec3.h"
 #include "math/angle.h"
 #include "math/scalar.h"
@@ -15,16 +17,12 @@ static float progress(float bound_rad, float max_bound_rad)
     return (bound_rad > 0.0f) ? jcal_min(max_bound_rad / bound_rad, 1.0f) : 1.0f;
 }
 
-static float largest_component(jcal_vec3_t v)
+static void put_estimate(const jcal_two_dof_verdict_t *verdict, const jcal_two_dof_config_t *cfg,
+                         const jcal_two_dof_point_t *point, jcal_two_dof_result_t *out)
 {
-    const float xy = (fabsf(v.x) >= fabsf(v.y)) ? v.x : v.y;
-    return (fabsf(xy) >= fabsf(v.z)) ? xy : v.z;
-}
-
-static void put_estimate(const jcal_two_dof_point_t *point, float sine, jcal_two_dof_result_t *out)
-{
-    const float sign1 = (largest_component(point->j1) < 0.0f) ? -1.0f : 1.0f;
-    const float sign2 = (largest_component(point->j2) < 0.0f) ? -1.0f : 1.0f;
+    const float sine = verdict->sine;
+    const float sign1 = jcal_sign_of(point->j1, cfg->axis1_toward, verdict->sign1);
+    const float sign2 = jcal_sign_of(point->j2, cfg->axis2_toward, verdict->sign2);
     out->axis1 = jcal_vec3_scale(point->j1, sign1);
     out->axis2 = jcal_vec3_scale(point->j2, sign2);
     out->heading_offset_rad = jcal_atan2(point->heading.im, point->heading.re);
@@ -48,17 +46,14 @@ void jcal_two_dof_report(const jcal_two_dof_verdict_t *verdict, const jcal_two_d
         out->progress_axis1 = progress(verdict->bound1_rad, limit);
         out->progress_axis2 = progress(verdict->bound2_rad, limit);
         out->progress_heading = progress(verdict->bound_heading_rad, limit);
-        put_estimate(point, verdict->sine, out);
+        put_estimate(verdict, cfg, point, out);
     }
 }
 
 void jcal_two_dof_report_gate(const jcal_orientation_gate_t *gate, jcal_two_dof_result_t *out)
 {
-    out->head.samples = gate->samples;
-    for (size_t i = 0u; i < (size_t)JCAL_REJECT_COUNT; ++i) {
-        out->head.rejected_by[i] = gate->rejected_by[i];
-        out->head.rejected += out->head.rejected_by[i];
-    }
+    jcal_head_complain(&out->head, jcal_orientation_gate_complaint(gate));
+    jcal_head_count(&out->head, gate->samples, gate->rejected_by);
 }
 
 jcal_status_t jcal_two_dof_get(const jcal_two_dof_t *self, jcal_two_dof_result_t *out)

@@ -85,9 +85,15 @@ jcal_status_t jcal_two_dof_reset(jcal_two_dof_t *self)
     return (self == NULL) ? JCAL_ERR_ARG : jcal_two_dof_init(self, &self->cfg);
 }
 
+/// False for null and for what init has never prepared: all zero, say.
+static bool is_prepared(const jcal_two_dof_t *self)
+{
+    return (self != NULL) && (self->share > 0u);
+}
+
 jcal_status_t jcal_two_dof_push(jcal_two_dof_t *self, const jcal_orientation_pair_t *pair)
 {
-    if ((self == NULL) || (pair == NULL)) {
+    if (!is_prepared(self) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
     const uint32_t at = self->written;
@@ -220,7 +226,8 @@ static jcal_two_dof_landscape_t landscape_of(const jcal_two_dof_t *self)
 /// Judges the estimate. A calibration that was ready and no longer fits is given up, and so is one after a slip that never does.
 static void judge(jcal_two_dof_t *self, const jcal_two_dof_landscape_t *landscape)
 {
-    const jcal_two_dof_case_t of = {&self->search, landscape, self->age_s, self->gate.bad_share};
+    const jcal_two_dof_case_t of = {&self->search, landscape, self->age_s,
+                                    jcal_orientation_gate_complaint(&self->gate)};
     jcal_two_dof_judge(&self->verdict, &self->cfg, &of);
     const bool was_ready = self->watch.on;
     const bool misfit = self->verdict.reason == (uint8_t)JCAL_REASON_DOES_NOT_FIT;
@@ -363,7 +370,7 @@ static void take(jcal_two_dof_t *self)
 
 jcal_status_t jcal_two_dof_step(jcal_two_dof_t *self)
 {
-    if (self == NULL) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
     if (self->written != self->taken) {

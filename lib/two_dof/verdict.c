@@ -3,6 +3,8 @@
 /// Bounds and readiness of a 2-DoF joint. See two_dof/verdict.h.
 #include "two_dof/verdict.h"
 
+#include "joint/hysteresis.h"
+#include "joint/sign.h"
 #include "math/angle.h"
 #include "math/chol.h"
 #include "math/clear.h"
@@ -34,10 +36,6 @@
 #define AGREED_MIN 3u
 /// Least motion, s.
 #define MOVING_MIN_S 2.0f
-/// A bound may grow by this before ready is lost.
-#define HYSTERESIS 1.2f
-/// Share of bad samples.
-#define BAD_SHARE_MAX 0.2f
 
 /// Residuals, squared, are never taken for less than this share of what the config calls usual.
 #define EXCESS_MIN 0.35f
@@ -134,10 +132,10 @@ static jcal_calibration_t missing(jcal_two_dof_verdict_t *verdict, const jcal_tw
                                   const jcal_two_dof_evidence_t *evidence, const bounds_t *bounds, float misfit)
 {
     const bool was_ready = verdict->status == (uint8_t)JCAL_READY;
-    const float limit = cfg->max_bound_rad * (was_ready ? HYSTERESIS : 1.0f);
+    const float limit = cfg->max_bound_rad * (was_ready ? JCAL_HYSTERESIS : 1.0f);
     const jcal_weak_t weak = weakest(bounds, limit);
-    if (evidence->bad_share > BAD_SHARE_MAX) {
-        say(verdict, weak, JCAL_HINT_CHECK_SENSORS, JCAL_REASON_BAD_SAMPLES);
+    if (evidence->complaint != JCAL_REASON_NONE) {
+        say(verdict, weak, JCAL_HINT_CHECK_SENSORS, evidence->complaint);
         return JCAL_COLLECTING;
     }
     if (!was_ready && (evidence->moving_s < MOVING_MIN_S)) { /* `moved` stays until there is something new to say */
@@ -199,6 +197,10 @@ void jcal_two_dof_conclude(jcal_two_dof_verdict_t *verdict, const jcal_two_dof_c
         }
     } else {
         /* ready, and stays so */
+    }
+    if (verdict->status == (uint8_t)JCAL_READY) {
+        jcal_sign_keep(&verdict->sign1, evidence->point->j1, cfg->axis1_toward);
+        jcal_sign_keep(&verdict->sign2, evidence->point->j2, cfg->axis2_toward);
     }
     verdict->excess = jcal_max(misfit, EXCESS_MIN);
 }

@@ -11,14 +11,15 @@
 
 /// What a judgement rests on.
 typedef struct {
+    const jcal_two_dof_point_t *point;  ///< The estimate.
     const float
-        *covariance;         ///< 5 x 5, packed, of the steps of j1 (2), j2 (2) and delta, rad^2; null if there is none.
-    float parts[2];          ///< Of the cost at the estimate, residuals over variance: rotation- and orientation-based.
-    float moving_s;          ///< Time in the cost, rest left out.
-    float age_s;             ///< Its mean age.
-    float sine;              ///< Mean of the orientation-based constraint.
-    float bad_share;         ///< Of the gate.
-    float cost, rival_cost;  ///< Of the estimate and of the best other minimum, in units of the variance.
+        *covariance;  ///< 5 x 5, packed, of the steps of j1 (2), j2 (2) and delta, rad^2; null if there is none.
+    float parts[2];   ///< Of the cost at the estimate, residuals over variance: rotation- and orientation-based.
+    float moving_s;   ///< Time in the cost, rest left out.
+    float age_s;      ///< Its mean age.
+    float sine;       ///< Mean of the orientation-based constraint.
+    jcal_reason_t complaint;  ///< Of the gate.
+    float cost, rival_cost;   ///< Of the estimate and of the best other minimum, in units of the variance.
     bool has_rival;
     uint8_t tried;      ///< Probes that ended.
     uint8_t exchanges;  ///< Probes that started from the exchanged axes of this estimate.

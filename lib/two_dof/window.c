@@ -17,6 +17,12 @@
 /// Two kept orientations further apart than this have no rate between them, s.
 #define APART_MAX_S 0.12f
 
+/// False for null and for what init has never prepared: all zero, say.
+static bool is_prepared(const jcal_two_dof_window_t *self)
+{
+    return (self != NULL) && (self->storage != NULL) && (self->cfg.n_max > 0u);
+}
+
 static jcal_two_dof_row_t *rows_of(const jcal_two_dof_window_t *self)
 {
     return (jcal_two_dof_row_t *)self->storage;
@@ -29,7 +35,7 @@ static bool storage_fits(const jcal_two_dof_window_config_t *cfg, const void *st
 
 size_t jcal_two_dof_window_storage_bytes(const jcal_two_dof_window_config_t *config)
 {
-    return JCAL_TWO_DOF_WINDOW_STORAGE_BYTES(config->n_max);
+    return (config == NULL) ? 0u : JCAL_TWO_DOF_WINDOW_STORAGE_BYTES(config->n_max);
 }
 
 /* Everything but config and storage as it was at the beginning. */
@@ -63,7 +69,7 @@ jcal_status_t jcal_two_dof_window_init(jcal_two_dof_window_t *self, const jcal_t
 
 jcal_status_t jcal_two_dof_window_attach(jcal_two_dof_window_t *self, void *storage, size_t storage_bytes)
 {
-    if ((self == NULL) || (storage == NULL)) {
+    if ((self == NULL) || (self->cfg.n_max == 0u) || (storage == NULL)) {
         return JCAL_ERR_ARG;
     }
     if (!storage_fits(&self->cfg, storage, storage_bytes)) {
@@ -75,7 +81,7 @@ jcal_status_t jcal_two_dof_window_attach(jcal_two_dof_window_t *self, void *stor
 
 jcal_status_t jcal_two_dof_window_reset(jcal_two_dof_window_t *self)
 {
-    if (self == NULL) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
     forget(self);
@@ -84,7 +90,7 @@ jcal_status_t jcal_two_dof_window_reset(jcal_two_dof_window_t *self)
 
 jcal_status_t jcal_two_dof_window_push(jcal_two_dof_window_t *self, const jcal_orientation_pair_t *pair)
 {
-    if ((self == NULL) || (pair == NULL)) {
+    if (!is_prepared(self) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
     const uint32_t at = self->written;
@@ -130,7 +136,7 @@ static bool middle(const jcal_two_dof_window_t *self, jcal_two_dof_row_t *row)
 
 jcal_status_t jcal_two_dof_window_step(jcal_two_dof_window_t *self)
 {
-    if (self == NULL) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
     if (self->written == self->taken) {
@@ -145,7 +151,8 @@ jcal_status_t jcal_two_dof_window_step(jcal_two_dof_window_t *self)
     self->next = (uint16_t)((self->next + 1u) % n_max);
     self->count = (uint16_t)((self->count < n_max) ? (self->count + 1u) : n_max);
     if ((2u * (uint32_t)self->count) >= n_max) {
-        const jcal_two_dof_rows_t rows = {rows_of(self), self->count, &self->cfg.two_dof, self->gate.bad_share};
+        const jcal_two_dof_rows_t rows = {rows_of(self), self->count, &self->cfg.two_dof,
+                                          jcal_orientation_gate_complaint(&self->gate)};
         jcal_two_dof_window_work(&self->search, &self->verdict, &rows, newest);
     }
     return JCAL_OK;

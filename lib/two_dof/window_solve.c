@@ -144,6 +144,8 @@ static void adopt(jcal_two_dof_window_search_t *search, jcal_two_dof_verdict_t *
     verdict->status = (uint8_t)JCAL_COLLECTING;
     verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
     verdict->sine = next.sine;
+    verdict->sign1 = 0; /* other axes */
+    verdict->sign2 = 0;
 }
 
 /// The probe becomes the estimate that it is close to; the senses of the axes stay.
@@ -273,12 +275,13 @@ static void judge(const jcal_two_dof_window_search_t *search, jcal_two_dof_verdi
     const bool known =
         covariance_of(sums, jcal_two_dof_window_unknowns(rows->cfg->constraint), verdict->excess, covariance);
     const jcal_two_dof_evidence_t evidence = {
+        .point = &search->best.point,
         .covariance = known ? covariance : NULL,
         .parts = {turn ? sums->weighted : 0.0f, turn ? 0.0f : sums->weighted},
         .moving_s = sums->moving_s,
         .age_s = age_of(rows, newest),
         .sine = sums->sine,
-        .bad_share = rows->bad_share,
+        .complaint = rows->complaint,
         .cost = search->best.cost * per_excess,
         .rival_cost = search->rival.cost * per_excess,
         .has_rival = search->has_rival,
