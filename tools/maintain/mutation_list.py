@@ -436,7 +436,7 @@ MUTATIONS = [
      "floor of the bound of the length"),
     (CHAIN, "const float shift = 0.5f * (jcal_vec3_dot(*thigh", "const float shift = 1.0f * (jcal_vec3_dot(*thigh",
      "knee next to both sensors"),
-    (CHAIN, "out->status = fits ? JCAL_READY : JCAL_COLLECTING;", "out->status = JCAL_READY;", "a tie that contradicts"),
+    (CHAIN, "out->head.status = fits ? JCAL_READY : JCAL_COLLECTING;", "out->status = JCAL_READY;", "a tie that contradicts"),
     (CHAIN, "(worst[0] >= worst[1])", "(worst[0] < worst[1])", "the weaker joint"),
     (CHAIN, "(joint->status == JCAL_COLLECTING) && (joint->reason == JCAL_REASON_UNCERTAIN)", "(joint->status == JCAL_COLLECTING)",
      "a joint that lacks nothing but smaller bounds"),
