@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// What the engines of the joint centre tell their user.
-#include "center/judge.h"
+/// What the engines of the joint centre tell their user. See center/result.h.
+#include "center/result.h"
+
 #include "jointcal/vec3.h"
 #include "math/angle.h"
 #include "math/scalar.h"

@@ -5,6 +5,7 @@
 
 #include "center/input.h"
 #include "center/judge.h"
+#include "center/result.h"
 #include "center/sums.h"
 #include "joint/watch.h"
 #include "jointcal/vec3.h"
@@ -30,21 +31,6 @@ static jcal_kinematic_t *samples_of(const jcal_center_window_t *self)
 static bool storage_fits(const jcal_center_window_config_t *cfg, const void *storage, size_t bytes)
 {
     return (((uintptr_t)storage % sizeof(uint64_t)) == 0u) && (bytes >= jcal_center_window_storage_bytes(cfg));
-}
-
-jcal_center_window_config_t jcal_center_window_config_default(void)
-{
-    const jcal_center_window_config_t config = {.center = jcal_center_config_default(), .n_max = 500u};
-    return config;
-}
-
-const char *jcal_center_window_config_check(const jcal_center_window_config_t *config)
-{
-    const char *const wrong = jcal_center_config_check(&config->center);
-    if (wrong != NULL) {
-        return wrong;
-    }
-    return ((config->n_max < 50u) || (config->n_max > 20000u)) ? "n_max" : NULL;
 }
 
 size_t jcal_center_window_storage_bytes(const jcal_center_window_config_t *config)

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Bounds, readiness and result of a 2-DoF joint from what an engine knows: the rules that both engines share. Private.
+/// Bounds and readiness of a 2-DoF joint from what an engine knows: the rules that both engines share. Private.
 #ifndef JCAL_TWO_DOF_VERDICT_H
 #define JCAL_TWO_DOF_VERDICT_H
 
-#include "jointcal/two_dof.h"
+#include "jointcal/private/two_dof/verdict.h"
+#include "jointcal/status.h"
+#include "jointcal/two_dof_config.h"
 #include "two_dof/point.h"
 
 /// What a judgement rests on.
@@ -28,15 +30,8 @@ void jcal_two_dof_verdict_begin(jcal_two_dof_verdict_t *verdict, jcal_calibratio
 /// inverse (n x n, packed) <- matrix^-1 after scaling; the matrix is lost. False if it is singular.
 bool jcal_two_dof_covariance(float *matrix, unsigned n, float *inverse);
 
-/// Judges: verdict <- bounds, sine, status, weak, hint, reason and excess; agreed <- judgements in a row that found nothing missing.
+/// Judges: verdict <- bounds, sine, status, weak, hint, reason, excess, and judgements in a row that found nothing missing.
 void jcal_two_dof_conclude(jcal_two_dof_verdict_t *verdict, const jcal_two_dof_config_t *cfg,
-                           const jcal_two_dof_evidence_t *evidence, uint8_t *agreed);
-
-/// out <- status, bounds and progress of the verdict and, unless `point` is null, axes and angles there; all other fields zero.
-void jcal_two_dof_report(const jcal_two_dof_verdict_t *verdict, const jcal_two_dof_config_t *cfg,
-                         const jcal_two_dof_point_t *point, jcal_two_dof_result_t *out);
-
-/// out <- the counters of the gate.
-void jcal_two_dof_report_gate(const jcal_orientation_gate_t *gate, jcal_two_dof_result_t *out);
+                           const jcal_two_dof_evidence_t *evidence);
 
 #endif /* JCAL_TWO_DOF_VERDICT_H */

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Window engine of the 2-DoF joint: config, storage, and orientations into rows.
+/// Window engine of the 2-DoF joint: storage, and orientations into rows.
 #include "jointcal/two_dof_window.h"
 
 #include "jointcal/quat.h"
 #include "math/clear.h"
 #include "sample/rate.h"
+#include "two_dof/result.h"
 #include "two_dof/verdict.h"
 #include "two_dof/window_solve.h"
 
@@ -24,28 +25,6 @@ static jcal_two_dof_row_t *rows_of(const jcal_two_dof_window_t *self)
 static bool storage_fits(const jcal_two_dof_window_config_t *cfg, const void *storage, size_t bytes)
 {
     return (((uintptr_t)storage % sizeof(uint64_t)) == 0u) && (bytes >= jcal_two_dof_window_storage_bytes(cfg));
-}
-
-jcal_two_dof_window_config_t jcal_two_dof_window_config_default(void)
-{
-    jcal_two_dof_window_config_t config = {
-        .two_dof = jcal_two_dof_config_default(),
-        .n_max = 200u,
-    };
-    config.two_dof.constraint = JCAL_CONSTRAINT_ROTATION;
-    return config;
-}
-
-const char *jcal_two_dof_window_config_check(const jcal_two_dof_window_config_t *config)
-{
-    const char *const wrong = jcal_two_dof_config_check(&config->two_dof);
-    if (wrong != NULL) {
-        return wrong;
-    }
-    if (config->two_dof.constraint == JCAL_CONSTRAINT_COMBINED) {
-        return "constraint";
-    }
-    return ((config->n_max < 20u) || (config->n_max > 10000u)) ? "n_max" : NULL;
 }
 
 size_t jcal_two_dof_window_storage_bytes(const jcal_two_dof_window_config_t *config)
@@ -166,8 +145,8 @@ jcal_status_t jcal_two_dof_window_step(jcal_two_dof_window_t *self)
     self->next = (uint16_t)((self->next + 1u) % n_max);
     self->count = (uint16_t)((self->count < n_max) ? (self->count + 1u) : n_max);
     if ((2u * (uint32_t)self->count) >= n_max) {
-        const jcal_two_dof_rows_t rows = {rows_of(self), self->count, &self->cfg.two_dof};
-        jcal_two_dof_window_work(self, &rows, newest);
+        const jcal_two_dof_rows_t rows = {rows_of(self), self->count, &self->cfg.two_dof, self->gate.bad_share};
+        jcal_two_dof_window_work(&self->search, &self->verdict, &rows, newest);
     }
     return JCAL_OK;
 }

@@ -23,6 +23,7 @@ TWO = "lib/two_dof/model.c"
 MOMENTS = "lib/two_dof/moments.c"
 PRIOR = "lib/two_dof/prior.c"
 VERDICT = "lib/two_dof/verdict.c"
+TWO_RESULT = "lib/two_dof/result.c"
 ANGLES = "lib/angles/angles.c"
 ORIENTATION = "lib/sample/orientation.c"
 RATE = "lib/sample/rate.h"
@@ -202,7 +203,7 @@ MUTATIONS = [
     (VERDICT, "return evidence->has_rival &&", "return !evidence->has_rival &&", "other minimum"),
     (VERDICT, "const bool open = has_close_rival(evidence);", "const bool open = false;", "bounds beside a rival"),
     (VERDICT, "(misfit > MISFIT_MAX)", "(misfit < 0.0f)", "data that do not fit"),
-    (VERDICT, "sign1 * sign2 * jcal_atan2(sine,", "sign1 * jcal_atan2(sine,", "sign of the carrying angle"),
+    (TWO_RESULT, "sign1 * sign2 * jcal_atan2(sine,", "sign1 * jcal_atan2(sine,", "sign of the carrying angle"),
     (ANGLES, "2.0f * ((q.w * q.y) - (q.x * q.z))", "2.0f * ((q.w * q.y) + (q.x * q.z))", "pronation (24)"),
     (ANGLES, "2.0f * ((q.w * q.x) + (q.y * q.z))", "2.0f * ((q.w * q.x) - (q.y * q.z))", "carrying angle (23)"),
     (ANGLES, "about_z(is->flexion_rad - shall->flexion_rad)", "about_z(shall->flexion_rad - is->flexion_rad)",
@@ -436,7 +437,7 @@ MUTATIONS = [
      "floor of the bound of the length"),
     (CHAIN, "const float shift = 0.5f * (jcal_vec3_dot(*thigh", "const float shift = 1.0f * (jcal_vec3_dot(*thigh",
      "knee next to both sensors"),
-    (CHAIN, "out->head.status = fits ? JCAL_READY : JCAL_COLLECTING;", "out->status = JCAL_READY;", "a tie that contradicts"),
+    (CHAIN, "out->head.status = fits ? JCAL_READY : JCAL_COLLECTING;", "out->head.status = JCAL_READY;", "a tie that contradicts"),
     (CHAIN, "(worst[0] >= worst[1])", "(worst[0] < worst[1])", "the weaker joint"),
     (CHAIN, "(joint->status == JCAL_COLLECTING) && (joint->reason == JCAL_REASON_UNCERTAIN)", "(joint->status == JCAL_COLLECTING)",
      "a joint that lacks nothing but smaller bounds"),
@@ -518,7 +519,7 @@ MUTATIONS = [
     (CJUDGE, "sqrtf(jcal_max(lasting, LASTING_MIN))", "sqrtf(lasting)", "what lasts as little as noise"),
     (CENTER, "(self->work.sums.blocks >= BLOCKS_MIN)", "(self->work.sums.blocks >= 1.0f)", "steps of too little data"),
     (CENTER, "if (jcal_center_sums_close(&self->work.sums) ||", "if (", "blocks that are never closed"),
-    (TIE, "!self->hip.work.as.inverse.is_factored ||", "", "ties without a factor of the hip's"),
+    (TIE, "!hip->work.as.inverse.is_factored ||", "", "ties without a factor of the hip's"),
     (CJUDGE, "return inverse->is_factored;", "return true;", "a matrix without a factor"),
     ("lib/sample/gate.c", "out.clipped = out.clipped && exceeds(&now[0], GYR_CLIP_MIN_RAD_S);", "out.clipped = out.clipped && true;",
      "a coarse reading at rest"),

@@ -19,7 +19,6 @@ static jcal_two_dof_config_t config;
 static jcal_two_dof_evidence_t evidence;
 static jcal_two_dof_verdict_t verdict;
 static float covariance[JCAL_SYM_SIZE(UNKNOWNS)];
-static uint8_t agreed;
 
 /* Evidence to which nothing is missing. */
 void setUp(void)
@@ -31,7 +30,6 @@ void setUp(void)
     }
     evidence = (jcal_two_dof_evidence_t){
         .covariance = covariance, .moving_s = 20.0f, .cost = 40.0f, .tried = 200u, .exchanges = 20u};
-    agreed = 0u;
     jcal_two_dof_verdict_begin(&verdict, JCAL_COLLECTING);
 }
 
@@ -41,7 +39,7 @@ void tearDown(void)
 
 static jcal_calibration_t judge(void)
 {
-    jcal_two_dof_conclude(&verdict, &config, &evidence, &agreed);
+    jcal_two_dof_conclude(&verdict, &config, &evidence);
     return (jcal_calibration_t)verdict.status;
 }
 

@@ -85,7 +85,7 @@ static void sums_are_those_of_the_rows(void)
     }
     jcal_two_dof_config_t cfg = config.two_dof;
     cfg.constraint = JCAL_CONSTRAINT_ORIENTATION;
-    const jcal_two_dof_rows_t all = {rows, ROWS, &cfg};
+    const jcal_two_dof_rows_t all = {rows, ROWS, &cfg, 0.0f};
     const jcal_two_dof_point_t point = point_of(4);
     jcal_two_dof_window_sums_t sums;
     jcal_two_dof_window_sum(&all, &point, sine, &sums);
