@@ -39,7 +39,7 @@ def measure(settings: Settings, report: Report) -> None:
     if not two_dof.has_vqf():
         raise Skipped("the library was built without VQF; tools/vqf.sh brings it")
     report.text("Separate parts of a recording, each given to a fresh stream engine with both constraints. Apart: angles of the parts' "
-                "estimates to their mean, in the median, whether ready or not; bound: the median bound they state at the end. "
+                "estimates to their mean, in the median, whether ready or not; bound: the median bound they state at the end, 90 if none. "
                 "Elbow: forearm sensor distal; knee: taken for a joint with two axes, bending and turning. deg.")
     rows = []
     for name in names:
