@@ -25,6 +25,7 @@ PRIOR = "lib/two_dof/prior.c"
 VERDICT = "lib/two_dof/verdict.c"
 TWO_RESULT = "lib/two_dof/result.c"
 ANGLES = "lib/angles/angles.c"
+HEADING = "lib/angles/heading.c"
 ORIENTATION = "lib/sample/orientation.c"
 RATE = "lib/sample/rate.h"
 WATCH = "lib/joint/watch.h"
@@ -203,13 +204,24 @@ MUTATIONS = [
     (VERDICT, "return evidence->has_rival &&", "return !evidence->has_rival &&", "other minimum"),
     (VERDICT, "const bool open = has_close_rival(evidence);", "const bool open = false;", "bounds beside a rival"),
     (VERDICT, "(misfit > MISFIT_MAX)", "(misfit < 0.0f)", "data that do not fit"),
+    (TWO_RESULT, "cfg->axis1_toward, verdict->sign1);", "cfg->axis1_toward, 0);", "sign of axis 1 once ready"),
+    (TWO_RESULT, "cfg->axis2_toward, verdict->sign2);", "cfg->axis2_toward, 0);", "sign of axis 2 once ready"),
+    (TWO_RESULT, "jcal_head_complain(&out->head, jcal_orientation_gate_complaint(gate));", "", "a source that fails"),
+    (VERDICT, "jcal_sign_keep(&verdict->sign2, evidence->point->j2,", "jcal_sign_keep(&verdict->sign2, evidence->point->j1,",
+     "which axis keeps its sign"),
     (TWO_RESULT, "sign1 * sign2 * jcal_atan2(sine,", "sign1 * jcal_atan2(sine,", "sign of the carrying angle"),
     (ANGLES, "2.0f * ((q.w * q.y) - (q.x * q.z))", "2.0f * ((q.w * q.y) + (q.x * q.z))", "pronation (24)"),
     (ANGLES, "2.0f * ((q.w * q.x) + (q.y * q.z))", "2.0f * ((q.w * q.x) - (q.y * q.z))", "carrying angle (23)"),
-    (ANGLES, "about_z(is->flexion_rad - shall->flexion_rad)", "about_z(shall->flexion_rad - is->flexion_rad)",
+    (ANGLES, "flexion_rad = is->flexion_rad - shall->flexion_rad;", "flexion_rad = shall->flexion_rad - is->flexion_rad;",
      "reference pose (25)"),
     (ORIENTATION, "(self->still1_s > config->frozen_s) || (self->still2_s > config->frozen_s)",
      "(self->still1_s > config->frozen_s) || (self->still1_s > config->frozen_s)", "frozen sensor 2"),
+    (ORIENTATION, "const float bad = (outcome == JCAL_REJECT_NONE) ? 0.0f : 1.0f;",
+     "const float bad = ((outcome == JCAL_REJECT_NONE) || (outcome == JCAL_REJECT_GAP)) ? 0.0f : 1.0f;", "nothing but holes"),
+    (HEADING, "!jcal_is_unit(pair->q1) ||", "", "a long quaternion in the sums"),
+    (HEADING, "jcal_quat_rotate(jcal_quat_normalise(pair->q1), self->axis1)", "jcal_quat_rotate(pair->q1, self->axis1)",
+     "length of a quaternion"),
+    (ANGLES, "!jcal_is_unit(q_s2_e2) ||", "", "an angle of zeros"),
     (ORIENTATION, "(pair->t_us <= self->last.t_us)", "(pair->t_us < self->last.t_us)", "time that stands still"),
     (RATE, "const float sign = (turn.w < 0.0f) ? -1.0f : 1.0f;", "const float sign = 1.0f;", "sign of a quaternion"),
     (RATE, "jcal_quat_mul(to, jcal_quat_conj(from))", "jcal_quat_mul(jcal_quat_conj(from), to)", "frame of the rate"),
