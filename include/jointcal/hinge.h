@@ -29,9 +29,6 @@
 extern "C" {
 #endif
 
-/// The bound of something of which nothing is known: a right angle, the largest angle between two lines, rad.
-#define JCAL_BOUND_UNKNOWN_RAD 1.57079633f
-
 /// What both hinge engines say.
 typedef struct {
     jcal_head_t head;

@@ -10,6 +10,9 @@
 extern "C" {
 #endif
 
+/// The bound of something of which nothing is known: a right angle, the largest angle between two lines, rad.
+#define JCAL_BOUND_UNKNOWN_RAD 1.57079633f
+
 /// What the user knows about the sign pairing beforehand.
 typedef enum {
     JCAL_SIGN_UNKNOWN = 0,  ///< Find it out (default).

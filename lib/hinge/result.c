@@ -43,8 +43,8 @@ jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
     jcal_hinge_result_t result = {0};
     result.head.engine = JCAL_ENGINE_STREAM;
     tell_verdict(self, &result);
-    result.has_axes = self->has_point;
-    if (self->has_point) {
+    result.has_axes = self->coarse.has_point;
+    if (self->coarse.has_point) {
         const float sign = jcal_hinge_main_sign(self->refine.point.axis1.j);
         result.axis1 = jcal_vec3_scale(self->refine.point.axis1.j, sign);
         result.axis2 = jcal_vec3_scale(self->refine.point.axis2.j, sign);

@@ -218,9 +218,9 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
     for (uint32_t slice = 0u; slice < JCAL_HINGE_WINDOW_SLICES; ++slice) {
         jcal_hinge_window_solve_slice(self, &rows);
     }
-    const bool knew = self->guard.has_point;
+    const bool knew = self->guard.coarse.has_point;
     jcal_hinge_consume(&self->guard, &pair);
-    if (knew && !self->guard.has_point) { /* a sensor has moved: what was selected is of another joint */
+    if (knew && !self->guard.coarse.has_point) { /* a sensor has moved: what was selected is of another joint */
         empty(self);
     }
     return JCAL_OK;
