@@ -1,8 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Hinge joint: both joint axes from gyroscopes and accelerometers. Stream engine, and what both engines share.
+/// Hinge: the joint axis as both sensors see it, from rates and specific forces in any motion. Stream engine, and what both engines
+/// say.
 ///
-/// Primary source: [OLS20]. Unknowns are j1 and j2, the unit joint axis in sensor frames 1 and 2.
+/// How it is used:
+///
+///     static jcal_hinge_t hinge;
+///     const jcal_hinge_config_t config = jcal_hinge_config_default();
+///     if (jcal_hinge_init(&hinge, &config) != JCAL_OK) { ... }
+///     (void)jcal_hinge_update(&hinge, &pair);        for each pair of readings
+///     jcal_hinge_result_t result;
+///     (void)jcal_hinge_get(&hinge, &result);         whenever you like
+///     if (result.head.status == JCAL_READY) { ... result.axis1, result.axis2 ... }
+///
+/// Or jcal_hinge_push in an interrupt and jcal_hinge_step outside. Units and frames: types.h. Settings: hinge_config.h.
+/// Cost: 2 KiB of state; docs/measurements/budget.md has the instructions of push and step.
+/// Source: [OLS20]; docs/METHOD.md derives what differs from it.
 #ifndef JCAL_HINGE_H
 #define JCAL_HINGE_H
 

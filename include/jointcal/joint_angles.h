@@ -46,8 +46,8 @@ typedef enum {
 /// Range of one angle over time, followed across +-180 deg: no two values in a row may lie half a turn or more apart.
 /// Caller-owned, plain, copyable; start from jcal_angle_range_reset.
 typedef struct {
-    float last_rad;      ///< Private: last value.
-    float followed_rad;  ///< Private: the same, with turns counted from the first value on.
+    float last_rad;      ///< Last value.
+    float followed_rad;  ///< The same, with turns counted from the first value on.
     float low_rad;       ///< Smallest value so far; may leave [-pi, pi].
     float high_rad;      ///< Largest value so far; may leave [-pi, pi].
     float mean_rad;      ///< Mean of all values.

@@ -1,9 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Joint with two degrees of freedom: both axes and the heading offset from orientations. Stream engine, and what both engines share.
+/// Joint with two axes, like elbow and forearm: both axes and the heading offset from orientations. Stream engine, and what both
+/// engines say.
 ///
-/// Primary source: [LAI22]. Unknowns are j1, the unit axis fixed in segment 1 (sensor frame 1), j2, that fixed in segment 2 (sensor
-/// frame 2), and the heading offset delta: v_E1 = Rz(delta) v_E2.
+/// How it is used: as hinge.h, with pairs of orientations in place of readings.
+///
+///     static jcal_two_dof_t elbow;
+///     const jcal_two_dof_config_t config = jcal_two_dof_config_default();
+///     if (jcal_two_dof_init(&elbow, &config) != JCAL_OK) { ... }
+///     (void)jcal_two_dof_update(&elbow, &orientations);
+///     jcal_two_dof_result_t result;
+///     (void)jcal_two_dof_get(&elbow, &result);
+///
+/// Unknowns are j1, fixed in segment 1, j2, fixed in segment 2, and the heading offset delta: v_E1 = Rz(delta) v_E2. Units and
+/// frames: types.h. Settings: two_dof_config.h. Cost: 3.9 KiB of state; docs/measurements/budget.md has the instructions.
+/// Source: [LAI22]; docs/METHOD_TWO_DOF.md derives what differs from it.
 #ifndef JCAL_TWO_DOF_H
 #define JCAL_TWO_DOF_H
 

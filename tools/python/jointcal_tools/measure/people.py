@@ -10,6 +10,7 @@ from .harness import Report, Settings, Skipped, median, number
 from .judge import available, recording
 
 TITLE = "A person's elbow and knee: repeatability"
+VQF = "all of it"  # what of it needs VQF
 RECORDINGS = ("human_elbow_right", "human_knee_left")
 PARTS_S = (20, 33)
 LIMITS_DEG = (3.0, 10.0, 28.0)  # of max_bound_rad: the default, and up to the largest that there is
