@@ -126,7 +126,7 @@ static void begin_probe(jcal_two_dof_t *self)
     if (self->has_best && (search->since_exchange >= EXCHANGE_EVERY)) {
         search->since_exchange = 0u;
         search->exchanges = (uint8_t)((search->exchanges < UINT8_MAX) ? (search->exchanges + 1u) : UINT8_MAX);
-        const jcal_orientation_pair_t *const pair = &self->ring[(self->taken - 1u) % JCAL_TWO_DOF_RING];
+        const jcal_orientation_pair_t *const pair = &self->kept.last[0];
         const jcal_two_dof_point_t other = jcal_two_dof_exchanged(&self->best.point, pair->q1, pair->q2);
         begin(&search->probe, &other);
         search->probing = true;

@@ -5,6 +5,7 @@
 #define JCAL_PRIVATE_TWO_DOF_STREAM_H
 
 #include "jointcal/orientation.h"
+#include "jointcal/private/two_dof/kept.h"
 #include "jointcal/private/two_dof/moments.h"
 #include "jointcal/private/two_dof/prior.h"
 #include "jointcal/private/two_dof/search.h"
@@ -16,16 +17,11 @@
 extern "C" {
 #endif
 
-/// Orientations that wait for step, and the last ones before them. A power of two.
-#define JCAL_TWO_DOF_RING 4u
-
 /// The stream engine. Caller-owned, plain, copyable at any time between calls; all members are private.
 typedef struct {
     jcal_two_dof_config_t cfg;
     jcal_orientation_gate_t gate;
-    jcal_orientation_pair_t ring[JCAL_TWO_DOF_RING];
-    volatile uint32_t written;  ///< Orientations ever put in; written by push only.
-    volatile uint32_t taken;    ///< Orientations ever taken out; written by step only.
+    jcal_two_dof_kept_t kept;
     jcal_two_dof_moments_t moments;
     jcal_two_dof_prior_t prior;
     jcal_two_dof_probe_t best;
@@ -37,7 +33,6 @@ typedef struct {
     float age_s;                ///< Mean age of what is in the sums.
     float moving_s;             ///< Time in the sums, rest left out.
     float since_forgot_s;       ///< Time since the sums were last faded.
-    uint8_t pushes;             ///< Samples since one was last kept.
     uint8_t share;              ///< Items of work per call of step.
     uint8_t item;               ///< Next item of work on the sample last taken.
     float time_s;   ///< Weight of the sample that is being summed, s: its time, less if there is little motion.
