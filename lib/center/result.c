@@ -65,6 +65,7 @@ void jcal_center_report(const jcal_center_config_t *cfg, const jcal_center_work_
         tell_point(cfg, &work->sums.point, out);
     }
     out->head.samples = input->gate.samples;
+    out->head.overrun = input->inbox.ring.overrun;
     for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
         out->head.rejected_by[i] = input->gate.rejected_by[i];
         out->head.rejected += input->gate.rejected_by[i];

@@ -65,5 +65,6 @@ jcal_status_t jcal_two_dof_get(const jcal_two_dof_t *self, jcal_two_dof_result_t
     jcal_two_dof_report_gate(&self->gate, out);
     out->head.engine = JCAL_ENGINE_STREAM;
     out->head.t_us = self->t_us;
+    out->head.overrun = self->kept.ring.overrun;
     return JCAL_OK;
 }

@@ -28,6 +28,8 @@ ANGLES = "lib/angles/angles.c"
 HEADING = "lib/angles/heading.c"
 ORIENTATION = "lib/sample/orientation.c"
 RATE = "lib/sample/rate.h"
+RING = "lib/sample/ring.h"
+KEPT = "lib/two_dof/kept.c"
 WATCH = "lib/joint/watch.h"
 SLIP = "lib/hinge/slip.c"
 TWO_ENGINE = "lib/two_dof/stream.c"
@@ -324,8 +326,16 @@ MUTATIONS = [
     (SUMS, "recent[i] = recent[i + 1u];", "recent[i] = recent[0];", "residuals of the last samples"),
     (SUMS, "#define NO_BIAS 1e-4f", "#define NO_BIAS 1e-1f", "biases that are not estimated"),
     (INPUT, "|| !is_unit(attitudes->q2)", "|| !is_unit(attitudes->q1)", "length of quaternion 2"),
-    (INPUT, "self->inbox.taken % JCAL_INBOX_CAPACITY", "(self->inbox.taken + 1u) % JCAL_INBOX_CAPACITY",
+    (INPUT, "const jcal_attitudes_t attitudes = self->attitudes[slot];",
+     "const jcal_attitudes_t attitudes = self->attitudes[(slot + 1u) % JCAL_INBOX_CAPACITY];",
      "orientation of another pair in the inbox"),
+    (RING, "self->overrun += 1u;", "self->overrun += 0u;", "samples that find no room are counted"),
+    (RING, "(at - self->taken) >= JCAL_INBOX_CAPACITY", "(at - self->taken) > JCAL_INBOX_CAPACITY", "room in the ring"),
+    (KEPT, "self->pushes_of[slot] = self->pushes;", "self->pushes_of[slot] = 1u;", "work is shared out over the samples pushed"),
+    (KEPT, "(to_s > APART_MAX_S) || (on_s > APART_MAX_S)", "(to_s > APART_MAX_S) && (on_s > APART_MAX_S)",
+     "orientations beside a hole have no rate"),
+    (CENTER, "for (uint32_t left = jcal_ring_waiting(&self->input.inbox.ring); left > 0u; --left) {",
+     "for (uint32_t left = 0u; left > 0u; --left) {", "update works off what waits"),
     (INPUT, "(sample->body1.rate2 < least) && (sample->body2.rate2 < least)",
      "(sample->body1.rate2 < least) || (sample->body2.rate2 < least)", "one sensor that turns is enough"),
     (INPUT, "cfg->min_rate_rad_s * cfg->min_rate_rad_s", "cfg->min_rate_rad_s", "square of the least rate"),

@@ -362,13 +362,15 @@ static void push_and_step_are_update_and_a_copy_goes_on_alike(void)
 static void without_step_the_ring_is_full(void)
 {
     const sim_t sim = lively(1);
-    const jcal_orientation_pair_t first = sample_of(&sim, 0);
-    const jcal_orientation_pair_t second = sample_of(&sim, 4);
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &first));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_FULL, jcal_two_dof_push(&engine, &second));
-    TEST_ASSERT_EQUAL_UINT32(1u, result_of(&engine).head.samples);
+    for (uint32_t k = 0; k < JCAL_INBOX_CAPACITY; ++k) {
+        const jcal_orientation_pair_t pair = sample_of(&sim, 4u * k);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &pair));
+    }
+    const jcal_orientation_pair_t next = sample_of(&sim, 4u * JCAL_INBOX_CAPACITY);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_FULL, jcal_two_dof_push(&engine, &next));
+    TEST_ASSERT_EQUAL_UINT32(JCAL_INBOX_CAPACITY, result_of(&engine).head.samples);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_step(&engine));
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &second));
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &next));
 }
 
 static void null_is_refused(void)
@@ -563,7 +565,7 @@ static void pushes_without_a_step_do_not_overflow(void)
         pair.t_us = begin_us + (10u * k); /* none of which is kept */
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &pair));
     }
-    TEST_ASSERT_EQUAL_UINT8(UINT8_MAX, engine.pushes);
+    TEST_ASSERT_EQUAL_UINT8(UINT8_MAX, engine.kept.pushes);
 }
 
 int main(void)
