@@ -29,9 +29,6 @@
 extern "C" {
 #endif
 
-/// The bound of something of which nothing is known, m.
-#define JCAL_BOUND_UNKNOWN_M 10.0f
-
 /// What both engines say.
 typedef struct {
     jcal_head_t head;

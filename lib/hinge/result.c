@@ -49,6 +49,7 @@ jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
     }
     result.head.t_us = self->last_us;
     result.head.samples = self->gate.samples;
+    result.head.overrun = self->inbox.ring.overrun;
     for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
         result.head.rejected_by[i] = self->gate.rejected_by[i];
         result.head.rejected += self->gate.rejected_by[i];

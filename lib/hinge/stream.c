@@ -17,7 +17,7 @@
 #include "math/scalar.h"
 #include "math/solve.h"
 #include "math/sym.h"
-#include "sample/inbox.h"
+#include "sample/ring.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -73,7 +73,8 @@
 #define SLICES_PER_CYCLE 8u
 #define SETTLED_ROUNDS 4u
 
-typedef char jcal_hinge_fits_its_budget[(sizeof(jcal_hinge_t) <= 2048u) ? 1 : -1];
+/// With the slots of the default inbox.
+typedef char jcal_hinge_fits_its_budget[((sizeof(jcal_hinge_t) - sizeof(jcal_inbox_t)) <= (2048u - 240u)) ? 1 : -1];
 
 /// Nothing is known yet, or no more.
 static void say_nothing_is_known(jcal_hinge_verdict_t *verdict)
@@ -127,13 +128,15 @@ jcal_status_t jcal_hinge_push(jcal_hinge_t *self, const jcal_pair_t *pair)
     if ((self == NULL) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
-    if (jcal_inbox_full(&self->inbox)) {
+    uint32_t slot;
+    if (!jcal_ring_room(&self->inbox.ring, &slot)) {
         return JCAL_ERR_FULL;
     }
     if (jcal_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
         return JCAL_REJECTED;
     }
-    jcal_inbox_put(&self->inbox, pair);
+    self->inbox.slots[slot] = *pair;
+    jcal_ring_publish(&self->inbox.ring);
     return JCAL_OK;
 }
 
@@ -374,21 +377,26 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
 
 jcal_status_t jcal_hinge_step(jcal_hinge_t *self)
 {
-    jcal_pair_t pair;
+    uint32_t slot;
     if (self == NULL) {
         return JCAL_ERR_ARG;
     }
-    if (!jcal_inbox_take(&self->inbox, &pair)) {
+    if (!jcal_ring_peek(&self->inbox.ring, &slot)) {
         return JCAL_IDLE;
     }
+    const jcal_pair_t pair = self->inbox.slots[slot];
+    jcal_ring_release(&self->inbox.ring);
     jcal_hinge_consume(self, &pair);
     return JCAL_OK;
 }
 
 jcal_status_t jcal_hinge_update(jcal_hinge_t *self, const jcal_pair_t *pair)
 {
-    if ((self != NULL) && (pair != NULL) && jcal_inbox_full(&self->inbox)) {
-        (void)jcal_hinge_step(self); /* pushes without steps have filled the inbox: make room */
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    for (uint32_t left = jcal_ring_waiting(&self->inbox.ring); left > 0u; --left) {
+        (void)jcal_hinge_step(self); /* pushed without a step */
     }
     const jcal_status_t pushed = jcal_hinge_push(self, pair);
     return (pushed == JCAL_OK) ? jcal_hinge_step(self) : pushed;

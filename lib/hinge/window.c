@@ -12,7 +12,7 @@
 #include "math/angle.h"
 #include "math/scalar.h"
 #include "math/sphere.h"
-#include "sample/inbox.h"
+#include "sample/ring.h"
 #include "sample/select.h"
 
 static const float us_per_s = 1e6f;
@@ -158,15 +158,17 @@ jcal_status_t jcal_hinge_window_push(jcal_hinge_window_t *self, const jcal_pair_
     if ((self == NULL) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
-    if (jcal_inbox_full(&self->guard.inbox)) {
+    uint32_t slot;
+    if (!jcal_ring_room(&self->guard.inbox.ring, &slot)) {
         return JCAL_ERR_FULL;
     }
     const uint32_t id = self->guard.gate.samples;
     if (jcal_gate_check(&self->guard.gate, &self->cfg.hinge.gate, pair) != JCAL_REJECT_NONE) {
         return JCAL_REJECTED;
     }
-    self->inbox_ids[self->guard.inbox.written % JCAL_INBOX_CAPACITY] = id;
-    jcal_inbox_put(&self->guard.inbox, pair);
+    self->inbox_ids[slot] = id;
+    self->guard.inbox.slots[slot] = *pair;
+    jcal_ring_publish(&self->guard.inbox.ring);
     return JCAL_OK;
 }
 
@@ -198,15 +200,16 @@ static void solve_when_due(jcal_hinge_window_t *self, const jcal_hinge_rows_t *r
 
 jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
 {
-    if (self == NULL) {
+    if ((self == NULL) || (self->storage == NULL)) {
         return JCAL_ERR_ARG;
     }
-    const uint32_t at = self->guard.inbox.taken % JCAL_INBOX_CAPACITY;
-    jcal_pair_t pair;
-    if (!jcal_inbox_take(&self->guard.inbox, &pair)) {
+    uint32_t slot;
+    if (!jcal_ring_peek(&self->guard.inbox.ring, &slot)) {
         return JCAL_IDLE;
     }
-    const uint32_t id = self->inbox_ids[at];
+    const jcal_pair_t pair = self->guard.inbox.slots[slot];
+    const uint32_t id = self->inbox_ids[slot];
+    jcal_ring_release(&self->guard.inbox.ring);
     keep_time(self, pair.t_us);
     jcal_scored_t scored;
     if (jcal_score_push(&self->score, slots(self), &pair, id, &scored)) {
@@ -231,8 +234,11 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
 
 jcal_status_t jcal_hinge_window_update(jcal_hinge_window_t *self, const jcal_pair_t *pair)
 {
-    if ((self != NULL) && (pair != NULL) && jcal_inbox_full(&self->guard.inbox)) {
-        (void)jcal_hinge_window_step(self); /* pushes without steps have filled the inbox: make room */
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    for (uint32_t left = jcal_ring_waiting(&self->guard.inbox.ring); left > 0u; --left) {
+        (void)jcal_hinge_window_step(self); /* pushed without a step */
     }
     const jcal_status_t status = jcal_hinge_window_push(self, pair);
     if (status == JCAL_OK) {

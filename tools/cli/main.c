@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The program `jointcal`: picks the subcommand. */
-#include "angles_command.h"
-#include "center_command.h"
-#include "chain_command.h"
-#include "hinge_command.h"
+#include "commands/commands.h"
+#include "output/message.h"
+
 #include "jointcal/jointcal.h"
-#include "message.h"
-#include "stream_command.h"
-#include "two_dof_command.h"
 
 #include <argp.h>
 #include <signal.h>
@@ -17,20 +13,11 @@
 typedef struct {
     const char *name;
     int (*run)(int argc, char **argv);
-    char *full_name; /* argp shows argv[0] in its messages */
 } command_t;
 
-static char angles_name[] = "jointcal angles";
-static char center_name[] = "jointcal center";
-static char chain_name[] = "jointcal chain";
-static char hinge_name[] = "jointcal hinge";
-static char stream_name[] = "jointcal stream";
-static char two_dof_name[] = "jointcal two-dof";
-
-static const command_t COMMANDS[] = {
-    {"angles", angles_command, angles_name}, {"center", center_command, center_name},
-    {"chain", chain_command, chain_name},    {"hinge", hinge_command, hinge_name},
-    {"stream", stream_command, stream_name}, {"two-dof", two_dof_command, two_dof_name}};
+static const command_t COMMANDS[] = {{"angles", angles_command}, {"center", center_command},
+                                     {"chain", chain_command},   {"hinge", hinge_command},
+                                     {"stream", stream_command}, {"two-dof", two_dof_command}};
 
 #define COMMAND_COUNT (sizeof COMMANDS / sizeof COMMANDS[0])
 
@@ -104,6 +91,9 @@ int main(int argc, char **argv)
     if (choice.command == NULL) {
         return EXIT_INPUT;
     }
-    argv[choice.index] = choice.command->full_name;
+    /* argp shows argv[0] in its messages. */
+    char full_name[32];
+    (void)snprintf(full_name, sizeof full_name, "jointcal %s", choice.command->name);
+    argv[choice.index] = full_name;
     return choice.command->run(argc - choice.index, argv + choice.index);
 }
