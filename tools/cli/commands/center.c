@@ -306,6 +306,7 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 /* ---- The command ---- */
 
 static const calibrate_joint_t CENTER = {.words = &WORDS,
+                                         .uses_readings = true,
                                          .push = push,
                                          .reset = reset,
                                          .get = get,

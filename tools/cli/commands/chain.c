@@ -197,6 +197,7 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 
 static const calibrate_joint_t CHAIN = {.words = &WORDS,
                                         .third = true,
+                                        .uses_readings = true,
                                         .push = push,
                                         .reset = reset,
                                         .get = get,

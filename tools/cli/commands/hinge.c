@@ -166,6 +166,7 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 /* ---- The command ---- */
 
 static const calibrate_joint_t HINGE = {.words = &WORDS,
+                                        .uses_readings = true,
                                         .push = push,
                                         .get = get,
                                         .bounds = bounds,

@@ -115,13 +115,15 @@ typedef struct {
 static void emit(void *context, const char *event, const message_estimate_t *estimate)
 {
     session_t *session = context;
-    const report_t report = {.head = estimate->result.head,
-                             .clock.has_time = estimate->now_us != MESSAGE_TIME_UNKNOWN,
-                             .clock.t_us = (int64_t)(estimate->now_us - ORIGIN_US + (uint64_t)session->start_us)};
+    report_t report = {.head = estimate->result.head,
+                       .clock.has_time = estimate->now_us != MESSAGE_TIME_UNKNOWN,
+                       .clock.t_us = (int64_t)(estimate->now_us - ORIGIN_US + (uint64_t)session->start_us)};
+    check_findings(&session->reading.recording.check, &report.findings);
+    report_apply_findings(&report);
     progress_clear(&session->reading.progress);
     json_t json = report_json_begin(stdout, event, &report);
     hinge_write_keys(&json, &estimate->result);
-    report_json_end(&json, &report.head);
+    report_json_end(&json, &report);
     if (fflush(stdout) != 0 || ferror(stdout) != 0) {
         session->output_failed = true;
     }

@@ -5,8 +5,10 @@
 #include "input/number.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define ALL_COLUMNS RECORDING_ALL_COLUMNS
@@ -223,6 +225,17 @@ static bool is_wanted(const recording_t *recording, size_t column)
     return recording->want_third && (column < FIRST_THIRD_ORIENTATION || recording->want_orientations);
 }
 
+/* Shows the row to those who judge the recording as a whole. Their time may be in any unit, so it has no limits. */
+static void watch(recording_t *recording, const recording_row_t *row)
+{
+    const char *time = recording->csv.cells[recording->index[0]].text;
+    const check_row_t shown_row = {.t_s = (time[0] == '\0') ? (double)NAN : strtod(time, NULL),
+                                   .has_time = row->has_time,
+                                   .t_us = row->t_us,
+                                   .imu = {&row->imu1, &row->imu2, recording->want_third ? &row->imu3 : NULL}};
+    check_push(&recording->check, &shown_row);
+}
+
 recording_event_t recording_next(recording_t *recording, recording_row_t *row)
 {
     const csv_event_t event = csv_next(&recording->csv);
@@ -256,6 +269,7 @@ recording_event_t recording_next(recording_t *recording, recording_row_t *row)
     row->q2 = (jcal_quat_t){values[17], values[18], values[19], values[20]};
     row->imu3 = (jcal_imu_t){{values[21], values[22], values[23]}, {values[24], values[25], values[26]}};
     row->q3 = (jcal_quat_t){values[27], values[28], values[29], values[30]};
+    watch(recording, row);
     return RECORDING_ROW;
 }
 

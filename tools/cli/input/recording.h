@@ -4,6 +4,7 @@
 #ifndef JCAL_CLI_INPUT_RECORDING_H
 #define JCAL_CLI_INPUT_RECORDING_H
 
+#include "input/check.h"
 #include "input/csv.h"
 #include "jointcal/types.h"
 
@@ -47,6 +48,7 @@ typedef struct {
     size_t header_cells;
     bool has_orientations;   ///< The header names all of q1_w ... q2_z; with a third sensor those of q3 too.
     bool want_orientations;  ///< Set after recording_open: read them, and complain about text in them.
+    check_t check;           ///< Watches the rows.
     bool want_third;         /* set by recording_want_third */
     bool found[RECORDING_ALL_COLUMNS];
     size_t index[RECORDING_ALL_COLUMNS]; /* cell of each column we want */
