@@ -89,6 +89,7 @@ static const command_line_t LINE = {
     .offers = {[COMMON_EVERY] = {.help = COMMON_EVERY_HELP},
                [COMMON_MAX_BOUND] =
                    {.help = "Ready when both axes are known to within DEG degrees with 95 % confidence (default 3)"},
+               [COMMON_SORT] = {.help = COMMON_SORT_HELP},
                [COMMON_SIGN_HINT] = {.help = COMMON_SIGN_HELP},
                [COMMON_JSON] = {.help = "Write JSON Lines, which is what this subcommand does anyway"}},
     .bound_unit = BOUND_IN_DEG,
@@ -132,8 +133,7 @@ static void emit(void *context, const char *event, const message_estimate_t *est
 static exit_status_t output_trouble(session_t *session)
 {
     progress_clear(&session->reading.progress);
-    complain("standard output", 0, 0, "%s", strerror(errno));
-    return EXIT_TROUBLE;
+    return complain_output("standard output");
 }
 
 /* Until the row is due, if the recording is played at its own pace. */
@@ -227,7 +227,7 @@ int stream_command(int argc, char **argv)
     }
     session->options = (stream_options_t){.hub = {.baud = 115200, .timeout_us = 5000000}, .speed = 1.0f};
     common_parse(&LINE, argc, argv, &session->common, &session->options);
-    exit_status_t status = reading_open(&session->reading, session->common.recording);
+    exit_status_t status = reading_open(&session->reading, session->common.recording, session->common.sort);
     status = (status == EXIT_READY) ? run_recording(session) : status;
     reading_close(&session->reading);
     free(session);

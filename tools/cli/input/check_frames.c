@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Blocks from which on there is a verdict: 2 s of slow motion. */
-#define ENOUGH_BLOCKS 20
+/* Blocks from which on there is a verdict, 5 s of slow motion: of fewer, chance explains as much. */
+#define ENOUGH_BLOCKS 50
 
 void check_frames_push(check_frames_t *frames, jcal_vec3_t turn_rad, jcal_vec3_t acc, jcal_vec3_t change)
 {

@@ -21,9 +21,10 @@
  * more than 0.46, and the right one of a moving rig 0.63 and more. And how much less it must leave open than the columns as they are. */
 #define FRAMES_FIT 0.55
 #define FRAMES_LEFT 0.6
-/* Of fewer blocks than this, 5 s, it must explain more: chance does too. */
-#define FRAMES_BLOCKS 50.0
-#define FRAMES_FIT_MORE 0.3
+/* One way stands out if what the next one leaves open is that much more. If none does, the motion was about few axes, where chance makes
+ * some fit: it takes 15 s of it. */
+#define FRAMES_NEXT 0.8
+#define FRAMES_BLOCKS 150u
 
 /* Gravity by rates and accelerations together is from 9.2 to 10.3 m/s^2 in recordings of all kinds. */
 #define GRAVITY_LEAST 6.0
@@ -173,10 +174,10 @@ void check_sensor_push(check_sensor_t *sensor, const jcal_imu_t *imu, int64_t t_
     sensor->last = *imu;
 }
 
-/* Within a factor of two. */
+/* Within a factor of four: no unit in use is nearer to another. */
 static bool about_one(double scale)
 {
-    return scale > 0.5 && scale < 2.0;
+    return scale > 0.25 && scale < 4.0;
 }
 
 /* What the way in which gravity turns says. */
@@ -186,19 +187,21 @@ static void judge_frames(const check_sensor_t *sensor, check_sensor_verdict_t *v
     if (!check_frames_get(&sensor->frames, &frames)) {
         return;
     }
-    const double missing = fmax(0.0, 1.0 - (frames.count / FRAMES_BLOCKS));
-    const double fit_needed = FRAMES_FIT + (FRAMES_FIT_MORE * missing);
     verdict->scale = frames.scale_as_is;
-    if (frames.fit_as_is > fit_needed) {
+    if (frames.fit_as_is > FRAMES_FIT) {
         verdict->fault = about_one(frames.scale_as_is) ? CHECK_SENSOR_FINE : CHECK_SENSOR_RATE_UNIT;
         return;
     }
     const double left = 1.0 - fmax(frames.fit_as_is, 0.0);
-    if (frames.fit < fit_needed || 1.0 - frames.fit > FRAMES_LEFT * left) {
+    if (frames.fit < FRAMES_FIT || 1.0 - frames.fit > FRAMES_LEFT * left) {
+        return;
+    }
+    const bool stands_out = 1.0 - frames.fit < FRAMES_NEXT * (1.0 - frames.fit_next);
+    if (!stands_out && frames.count < FRAMES_BLOCKS) {
         return;
     }
     verdict->fault = (-frames.fit_as_is > 0.99 * frames.fit) ? CHECK_SENSOR_TURNS_BACK : CHECK_SENSOR_FRAMES;
-    verdict->way_known = frames.scale > 0.0 && 1.0 - frames.fit < 0.8 * (1.0 - frames.fit_next);
+    verdict->way_known = frames.scale > 0.0 && stands_out;
     memcpy(verdict->column, frames.column, sizeof verdict->column);
     memcpy(verdict->sign, frames.sign, sizeof verdict->sign);
 }

@@ -33,8 +33,7 @@ typedef struct {
 static exit_status_t flush(void)
 {
     if (fflush(stdout) != 0 || ferror(stdout) != 0) {
-        complain("standard output", 0, 0, "%s", strerror(errno));
-        return EXIT_TROUBLE;
+        return complain_output("standard output");
     }
     return EXIT_READY;
 }
@@ -237,7 +236,7 @@ exit_status_t calibrate(const common_options_t *options, const calibrate_joint_t
     session->oriented = oriented;
     session->report.words = joint->words;
     session->report.max_bound = options->max_bound;
-    exit_status_t status = reading_open(&session->reading, options->recording);
+    exit_status_t status = reading_open(&session->reading, options->recording, options->sort);
     if (status == EXIT_READY) {
         status = run_recording(session);
     }
