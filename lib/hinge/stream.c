@@ -29,7 +29,6 @@
 
 /// Keeps the weight 1 / (|w1|^2 + |w2|^2 + eps) finite at rest, (rad/s)^2; docs/METHOD.md section 2.
 #define RATE_EPS 0.05f
-
 /// Time constant of the product of the rates, s.
 #define PRODUCT_TIME_S 0.2f
 
@@ -49,10 +48,8 @@
 
 /// Growth of the usual residual of the rates with them, squared: scale and misalignment of the gyroscopes.
 #define RATE_SHARE2 4e-4f
-
 /// Share of the accelerometers' assumed variance that changes within a second; the rest, biases say, is there all the time.
 #define WATCH_ACC_SHARE 0.3f
-
 /// Axes may be off by this, rad, beyond their bounds before a sensor is said to have moved.
 #define SLIP_RAD 0.06f
 
