@@ -3,6 +3,9 @@
 /// Settings of the hinge that both engines share: defaults and ranges.
 #include "jointcal/hinge_config.h"
 
+#include "joint/sign.h"
+#include "jointcal/vec3.h"
+
 #include <stddef.h>
 
 #define DEGREE 0.0174532925f
@@ -19,6 +22,7 @@ jcal_hinge_config_t jcal_hinge_config_default(void)
     config.gyr_bias_rad_s = 0.007f;
     config.acc_bias_m_s2 = 0.5f;
     config.sign_hint = JCAL_SIGN_UNKNOWN;
+    config.axis1_toward = jcal_vec3(0.0f, 0.0f, 0.0f);
     config.slices_per_s = 200.0f;
     return config;
 }
@@ -48,6 +52,9 @@ const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
     const int hint = (int)config->sign_hint;
     if ((hint < (int)JCAL_SIGN_UNKNOWN) || (hint > (int)JCAL_SIGN_OPPOSITE)) {
         return "sign_hint";
+    }
+    if (!jcal_sign_may_be_toward(config->axis1_toward)) {
+        return "axis1_toward";
     }
     return jcal_gate_config_check(&config->gate);
 }

@@ -10,6 +10,7 @@
 #include "hinge/search.h"
 #include "math/scalar.h"
 
+#include <float.h>
 #include <math.h>
 
 /// Integral of the squared difference of the rates, beyond what errors make, that shows that the joint moves, rad^2/s:
@@ -37,9 +38,6 @@
 #define RIVAL_COST_MIN 15.0f
 #define RIVAL_RATIO_MIN 1.5f
 #define INFLATION_MIN 0.3f
-
-/// Entering `ready` takes bounds below this share of the limit, staying there the limit itself.
-#define ENTER_SHARE 0.98f
 
 /// Judgements in a row, one each 45 ms, that must agree before `ready`.
 #define AGREED_MIN 6u
@@ -80,7 +78,7 @@ static sign_t compare_signs(const jcal_hinge_evidence_t *self)
 }
 
 /// True if another minimum explains the data about as well, or if not all starts have been tried yet.
-static bool has_rival(const jcal_hinge_evidence_t *self, float cost, float inflation)
+static bool has_rival(const jcal_hinge_evidence_t *self, float cost, float inflation, float slack)
 {
     if (self->search->rounds == 0u) {
         return true;
@@ -92,25 +90,25 @@ static bool has_rival(const jcal_hinge_evidence_t *self, float cost, float infla
         return false;
     }
     const float other = jcal_hinge_cost_of_rival(self->search, &self->coarse->moments, self->cfg);
-    const bool much_worse = (other - cost) > (RIVAL_COST_MIN * jcal_max(inflation, INFLATION_MIN));
-    return !(much_worse && (other > (RIVAL_RATIO_MIN * cost)));
+    const bool much_worse = (slack * (other - cost)) > (RIVAL_COST_MIN * jcal_max(inflation, INFLATION_MIN));
+    return !(much_worse && ((slack * other) > (RIVAL_RATIO_MIN * cost)));
 }
 
 /// True if what remains of the rates is small beside the joint's own rate.
-static bool fits(const jcal_hinge_evidence_t *self)
+static bool fits(const jcal_hinge_evidence_t *self, float slack)
 {
     const float unit = self->cfg->gyr_noise_rad_s * self->cfg->gyr_noise_rad_s;
     const float units = jcal_max(self->refine->units, 1e-9f);
     const float error = sqrtf(unit * self->refine->cost / units);
     const float joint = sqrtf(unit * self->refine->joint / units);
-    return error < ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S);
+    return error < (slack * ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S));
 }
 
 /// True if some hinge explains the lengths of the rates, whatever the refined axes are doing.
-static bool is_explained(const jcal_hinge_evidence_t *self)
+static bool is_explained(const jcal_hinge_evidence_t *self, float slack)
 {
     const float left = jcal_hinge_cost_gyr(&self->coarse->moments, &self->coarse->point);
-    return left < (UNEXPLAINED_MAX * jcal_hinge_cost_gyr_alone(&self->coarse->moments));
+    return left < (slack * UNEXPLAINED_MAX * jcal_hinge_cost_gyr_alone(&self->coarse->moments));
 }
 
 static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
@@ -144,12 +142,13 @@ static bool is_hinted(const jcal_hinge_evidence_t *self)
 static bool contradicts_hint(const jcal_hinge_evidence_t *self, const sign_t *sign)
 {
     const bool contradicted = (sign->evidence < -SIGN_EVIDENCE_MIN) && (sign->margin < (1.0f / SIGN_MARGIN_MIN));
-    return is_hinted(self) && (contradicted || !jcal_hinge_obeys(&self->refine->point, self->cfg->sign_hint));
+    const bool obeys = jcal_hinge_obeys(&self->refine->point, self->cfg->sign_hint, self->kept_sign);
+    return is_hinted(self) && (contradicted || !obeys);
 }
 
 /// The first thing that keeps the estimate from being ready, the worst first.
 static jcal_reason_t find_reason(const jcal_hinge_evidence_t *self, const jcal_hinge_bounds_t *bounds,
-                                 const sign_t *sign, bool was_ready)
+                                 const sign_t *sign, float slack)
 {
     if (self->complaint != JCAL_REASON_NONE) {
         return self->complaint;
@@ -160,19 +159,18 @@ static jcal_reason_t find_reason(const jcal_hinge_evidence_t *self, const jcal_h
     if (contradicts_hint(self, sign)) {
         return JCAL_REASON_SIGN_OPEN;
     }
-    if (!fits(self) || !is_explained(self)) {
+    if (!fits(self, slack) || !is_explained(self, slack)) {
         return JCAL_REASON_DOES_NOT_FIT;
     }
-    const float limit_rad = was_ready ? self->cfg->max_bound_rad : (ENTER_SHARE * self->cfg->max_bound_rad);
-    if (!(jcal_max(bounds->bound1_rad, bounds->bound2_rad) <= limit_rad)) {
+    if (!(jcal_max(bounds->bound1_rad, bounds->bound2_rad) <= (slack * self->cfg->max_bound_rad))) {
         return JCAL_REASON_UNCERTAIN;
     }
-    if (!is_hinted(self) && !((sign->evidence > SIGN_EVIDENCE_MIN) && (sign->margin > SIGN_MARGIN_MIN))) {
+    const bool certain = ((slack * sign->evidence) > SIGN_EVIDENCE_MIN) && ((slack * sign->margin) > SIGN_MARGIN_MIN);
+    if (!is_hinted(self) && !certain) {
         return JCAL_REASON_SIGN_OPEN;
     }
-    return has_rival(self, jcal_hinge_cost(&self->coarse->moments, self->cfg, &self->coarse->point), bounds->inflation)
-               ? JCAL_REASON_OTHER_MINIMUM
-               : JCAL_REASON_NONE;
+    const float cost = jcal_hinge_cost(&self->coarse->moments, self->cfg, &self->coarse->point);
+    return has_rival(self, cost, bounds->inflation, slack) ? JCAL_REASON_OTHER_MINIMUM : JCAL_REASON_NONE;
 }
 
 /// The wider bound; where nothing is known of either axis, the one about which its segment turned less.
@@ -229,7 +227,7 @@ static jcal_reason_t why_nothing_is_known(const jcal_hinge_evidence_t *self, con
     if (self->amount->excitation < EXCITATION_MIN) {
         return JCAL_REASON_NO_MOTION;
     }
-    return is_explained(self) ? JCAL_REASON_UNCERTAIN : JCAL_REASON_DOES_NOT_FIT;
+    return is_explained(self, 1.0f) ? JCAL_REASON_UNCERTAIN : JCAL_REASON_DOES_NOT_FIT;
 }
 
 bool jcal_hinge_judge(const jcal_hinge_evidence_t *self, jcal_hinge_verdict_t *verdict)
@@ -243,7 +241,12 @@ bool jcal_hinge_judge(const jcal_hinge_evidence_t *self, jcal_hinge_verdict_t *v
         report(self, verdict, why_nothing_is_known(self, &sign), &bounds, &sign);
         return false;
     }
-    const bool was_ready = verdict->status == (uint8_t)JCAL_READY;
-    report(self, verdict, find_reason(self, &bounds, &sign, was_ready), &bounds, &sign);
+    const float slack = (verdict->status == (uint8_t)JCAL_READY) ? JCAL_HINGE_HYSTERESIS : 1.0f;
+    report(self, verdict, find_reason(self, &bounds, &sign, slack), &bounds, &sign);
     return !is_hinted(self) && (sign.evidence < SIGN_EVIDENCE_TURN);
+}
+
+float jcal_hinge_progress(float bound_rad, float max_bound_rad)
+{
+    return jcal_min(1.0f, max_bound_rad / jcal_max(bound_rad, FLT_MIN));
 }

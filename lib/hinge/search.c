@@ -249,7 +249,7 @@ bool jcal_hinge_search(jcal_hinge_search_t *self, jcal_hinge_coarse_t *coarse, c
     }
     self->running = false;
     self->start = (uint8_t)(self->start + 1u);
-    jcal_hinge_obey(&probe, cfg->sign_hint);
+    jcal_hinge_obey(&probe, cfg->sign_hint, scope->kept_sign);
     const bool may_turn = scope->pairing_is_free && (cfg->sign_hint == JCAL_SIGN_UNKNOWN);
     const bool another = file_probe(self, coarse, cfg, may_turn, &probe);
     if (self->start >= STARTS) {

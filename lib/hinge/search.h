@@ -14,7 +14,8 @@
 typedef struct {
     /// A better cost of the other sign pairing makes it the estimate. Later on the judgement decides, which knows what the rates say.
     bool pairing_is_free;
-    bool joint_has_moved;  ///< A round over all starts counts.
+    bool joint_has_moved;     ///< A round over all starts counts.
+    const int8_t *kept_sign;  ///< Of both axes; what the user's hint means.
 } jcal_hinge_scope_t;
 
 /// One Gauss-Newton step of the estimate, and the accelerometers' constant at the refined axes.

@@ -10,6 +10,7 @@
 #include "hinge/search.h"
 #include "hinge/slip.h"
 #include "hinge/stream.h"
+#include "joint/sign.h"
 #include "joint/watch.h"
 #include "jointcal/vec3.h"
 #include "math/clear.h"
@@ -28,7 +29,6 @@
 
 /// Keeps the weight 1 / (|w1|^2 + |w2|^2 + eps) finite at rest, (rad/s)^2; docs/METHOD.md section 2.
 #define RATE_EPS 0.05f
-
 /// Time constant of the product of the rates, s.
 #define PRODUCT_TIME_S 0.2f
 
@@ -48,10 +48,8 @@
 
 /// Growth of the usual residual of the rates with them, squared: scale and misalignment of the gyroscopes.
 #define RATE_SHARE2 4e-4f
-
 /// Share of the accelerometers' assumed variance that changes within a second; the rest, biases say, is there all the time.
 #define WATCH_ACC_SHARE 0.3f
-
 /// Axes may be off by this, rad, beyond their bounds before a sensor is said to have moved.
 #define SLIP_RAD 0.06f
 
@@ -75,17 +73,25 @@
 /// With the slots of the default inbox.
 typedef char jcal_hinge_fits_its_budget[((sizeof(jcal_hinge_t) - sizeof(jcal_inbox_t)) <= (2048u - 240u)) ? 1 : -1];
 
+/// Nothing is known yet, or no more.
+static void say_nothing_is_known(jcal_hinge_verdict_t *verdict)
+{
+    verdict->agreed = 0u;
+    verdict->bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
+    verdict->bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
+    verdict->status = (uint8_t)JCAL_COLLECTING;
+    verdict->reason = (uint8_t)JCAL_REASON_NO_DATA;
+    verdict->hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+    verdict->weak = (uint8_t)JCAL_WEAK_AXIS1;
+}
+
 /// Empties what was learnt of the joint: all that follows the inbox. Push, which may preempt this, does not touch it.
 static void clear(jcal_hinge_t *self)
 {
     const size_t first = offsetof(jcal_hinge_t, coarse);
     jcal_clear((unsigned char *)self + first, sizeof *self - first);
     self->coarse.damping = JCAL_GN_DAMPING_START;
-    self->verdict.bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
-    self->verdict.bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
-    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
-    self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
-    self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+    say_nothing_is_known(&self->verdict);
 }
 
 void jcal_hinge_start(jcal_hinge_t *self, const jcal_hinge_config_t *config)
@@ -265,15 +271,13 @@ static bool sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
 /// Another point is the estimate of the coarse search: what was judged was the old one.
 static void go_on_there(jcal_hinge_t *self)
 {
-    self->verdict.agreed = 0u;
-    self->verdict.status = (uint8_t)JCAL_COLLECTING;
-    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
+    say_nothing_is_known(&self->verdict);
     jcal_hinge_refine_go(&self->refine, &self->coarse.point);
 }
 
 void jcal_hinge_look_around(jcal_hinge_t *self)
 {
-    const jcal_hinge_scope_t scope = {!(self->refine.blocks > 0.0f), self->amount.excitation > 0.0f};
+    const jcal_hinge_scope_t scope = {!(self->refine.blocks > 0.0f), self->amount.excitation > 0.0f, self->kept_sign};
     if (jcal_hinge_search(&self->search, &self->coarse, &self->cfg, &scope)) {
         go_on_there(self);
     }
@@ -285,12 +289,28 @@ void jcal_hinge_go_round(jcal_hinge_t *self)
     go_on_there(self);
 }
 
+/// That of axis 2 is reported with the sign of axis 1; what is kept of it is what the user's hint compares.
+static void keep_signs(jcal_hinge_t *self)
+{
+    const jcal_hinge_point_t *const point = &self->refine.point;
+    jcal_sign_keep(&self->kept_sign[0], point->axis1.j, self->cfg.axis1_toward);
+    jcal_sign_keep(&self->kept_sign[1], point->axis2.j, jcal_vec3(0.0f, 0.0f, 0.0f));
+}
+
 void jcal_hinge_take_stock(jcal_hinge_t *self)
 {
-    const jcal_hinge_evidence_t evidence = {&self->cfg,    &self->coarse, &self->refine,
-                                            &self->search, &self->amount, jcal_gate_complaint(&self->gate)};
+    const jcal_hinge_evidence_t evidence = {.cfg = &self->cfg,
+                                            .coarse = &self->coarse,
+                                            .refine = &self->refine,
+                                            .search = &self->search,
+                                            .amount = &self->amount,
+                                            .complaint = jcal_gate_complaint(&self->gate),
+                                            .kept_sign = self->kept_sign};
     if (jcal_hinge_judge(&evidence, &self->verdict)) {
         jcal_hinge_go_round(self);
+    }
+    if (self->verdict.status == (uint8_t)JCAL_READY) {
+        keep_signs(self);
     }
 }
 

@@ -32,6 +32,8 @@ RING = "lib/sample/ring.h"
 KEPT = "lib/two_dof/kept.c"
 WATCH = "lib/joint/watch.h"
 SLIP = "lib/hinge/slip.c"
+SIGN = "lib/joint/sign.h"
+WINDOW = "lib/hinge/window.c"
 TWO_ENGINE = "lib/two_dof/stream.c"
 CMODEL = "lib/center/model.c"
 SUMS = "lib/center/sums.c"
@@ -126,14 +128,21 @@ MUTATIONS = [
     (BOUNDS, "#define LINEAR_SHARE 0.2f", "#define LINEAR_SHARE 20.0f", "nearly planar motion"),
     (JUDGE, "sign.evidence = 0.5f * (acc_odds + turn_odds);",
      "sign.evidence = 0.5f * (acc_odds - turn_odds);", "odds of the pairing"),
+    (JUDGE, "? JCAL_HINGE_HYSTERESIS : 1.0f;", "? 1.0f : 1.0f;", "leaving ready takes more than entering it"),
+    (WINDOW, "(self->was_ready ? JCAL_HINGE_HYSTERESIS : 1.0f)", "1.0f", "leaving ready takes more, window engine"),
+    (WINDOW, "result->head.reason = JCAL_REASON_NO_DATA;", "result->head.reason = JCAL_REASON_NONE;",
+     "no axes without a reason"),
+    (ENGINE, "        keep_signs(self);", "        (void)keep_signs;", "a sign that stays"),
+    (SIGN, "if ((along > 0.0f) || (along < 0.0f)) {", "if (along > 0.0f) {", "away from the named direction"),
+    (POINT, "jcal_sign_held(point->axis2.j, kept[1])", "jcal_sign_main(point->axis2.j)", "what a hint means beyond a tie"),
     (JUDGE, "#define EXCITATION_MIN 0.03f", "#define EXCITATION_MIN 0.0f", "a joint that does not move"),
     (JUDGE, "if (self->search->rounds == 0u) {", "if (self->search->rounds == 255u) {", "all starts tried"),
-    (JUDGE, "return !(much_worse && (other > (RIVAL_RATIO_MIN * cost)));",
-     "return (much_worse && (other > (RIVAL_RATIO_MIN * cost)));", "is a rival worse"),
+    (JUDGE, "return !(much_worse && ((slack * other) > (RIVAL_RATIO_MIN * cost)));",
+     "return (much_worse && ((slack * other) > (RIVAL_RATIO_MIN * cost)));", "is a rival worse"),
     (JUDGE, "(bounds->bound1_rad > bounds->bound2_rad) ? JCAL_WEAK_AXIS1",
      "(bounds->bound1_rad < bounds->bound2_rad) ? JCAL_WEAK_AXIS1", "the weaker axis"),
-    (JUDGE, "return error < ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S);",
-     "return error > ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S);", "does it fit"),
+    (JUDGE, "return error < (slack * ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S));",
+     "return error > (slack * ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S));", "does it fit"),
     (JUDGE, "(sign.evidence < SIGN_EVIDENCE_TURN)",
      "(sign.evidence > SIGN_EVIDENCE_TURN)", "turning the pairing round"),
     (SEARCH, "const float packed[6] = {sums[0], sums[3], sums[1],",

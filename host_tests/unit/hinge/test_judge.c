@@ -8,6 +8,7 @@
 #include "hinge/refine.h"
 #include "hinge/search.h"
 #include "hinge/stream.h"
+#include "joint/sign.h"
 #include "math/sym.h"
 #include "unit/hinge/fixture.h"
 
@@ -17,6 +18,13 @@ static void make_ready(void)
     const motion_t motion = motion_lively(9);
     run(&engine, &motion, 0, RUN);
     TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
+}
+
+/* To enter takes more than to stay. */
+static void forget_that_it_was_ready(void)
+{
+    engine.verdict.status = (uint8_t)JCAL_COLLECTING;
+    engine.verdict.agreed = 0u;
 }
 
 static void judge_several_times(void)
@@ -37,7 +45,7 @@ static void assert_verdict(jcal_calibration_t status, jcal_reason_t reason, jcal
 
 static bool pairing_is_same(void)
 {
-    return jcal_hinge_main_sign(engine.coarse.point.axis1.j) == jcal_hinge_main_sign(engine.coarse.point.axis2.j);
+    return jcal_sign_main(engine.coarse.point.axis1.j) == jcal_sign_main(engine.coarse.point.axis2.j);
 }
 
 /* A hint that agrees with the data, so that the pairing is not asked for. */
@@ -81,7 +89,7 @@ static void a_rival_that_costs_hardly_more_makes_the_joint_ambiguous(void)
        near 1. */
     const float cost = jcal_hinge_cost_of_rival(&engine.search, &engine.coarse.moments, &engine.cfg);
     for (size_t i = 0; i < 6; ++i) {
-        engine.coarse.moments.acc[jcal_sym_at(i, i)] += cost;
+        engine.coarse.moments.acc[jcal_sym_at(i, i)] += 3.0f * cost;
     }
     assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_OTHER_MINIMUM, JCAL_HINT_MOVE_JOINT);
 }
@@ -123,6 +131,8 @@ static void a_rival_many_times_as_costly_counts_while_the_difference_is_a_few_re
         if (i == 0) {
             assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
         } else {
+            assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE); /* to leave it takes a sixth less yet */
+            forget_that_it_was_ready();
             assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_OTHER_MINIMUM, JCAL_HINT_MOVE_JOINT);
         }
     }
@@ -168,10 +178,16 @@ static void the_pairing_takes_evidence_of_seven_and_a_ratio_of_1_3(void)
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 1.35f, result_of(&engine).sign_margin);
     TEST_ASSERT_EQUAL_FLOAT(1.0f, result_of(&engine).progress_sign);
     rates_alone_say(9.0f, 1.35f); /* 6.75 */
+    assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
+    forget_that_it_was_ready();
     assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_SIGN_OPEN, JCAL_HINT_TILT_AXIS);
     TEST_ASSERT_EQUAL_INT(JCAL_WEAK_SIGN, result_of(&engine).head.weak);
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 22.5f * logf(1.35f) / 7.0f, result_of(&engine).progress_sign);
     rates_alone_say(20.0f, 1.28f); /* 12.3, but a ratio that a wrong weight alone would make */
+    assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_SIGN_OPEN, JCAL_HINT_TILT_AXIS);
+    rates_alone_say(10.0f, 1.35f);
+    assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
+    rates_alone_say(7.6f, 1.35f); /* 5.70: below 7 / 1.2 */
     assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_SIGN_OPEN, JCAL_HINT_TILT_AXIS);
 }
 
@@ -186,6 +202,7 @@ static void specific_forces_speak_for_the_pairing_once_each_0_3_s(void)
     engine.amount.weight_acc2 = 1.0f;
     engine.amount.weight_acc = sqrtf(7.2f * 2.0f * 0.3f / odds); /* its square over that: the time they stand for */
     assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
+    forget_that_it_was_ready();
     engine.amount.weight_acc = sqrtf(6.8f * 2.0f * 0.3f / odds);
     assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_SIGN_OPEN, JCAL_HINT_TILT_AXIS);
 }
@@ -261,7 +278,10 @@ static void a_joint_that_did_not_move_enough_is_said_so_before_anything_else(voi
 static void residuals_of_a_third_of_the_rate_of_the_joint_do_not_fit(void)
 {
     make_ready();
-    set_fit(0.375f); /* limit: 0.35 + 0.02 rad/s */
+    set_fit(0.375f); /* limit: 0.35 + 0.02 rad/s; 1.2 times that while ready */
+    judge_several_times();
+    TEST_ASSERT_NOT_EQUAL(JCAL_REASON_DOES_NOT_FIT, result_of(&engine).head.reason);
+    forget_that_it_was_ready();
     assert_verdict(JCAL_COLLECTING, JCAL_REASON_DOES_NOT_FIT, JCAL_HINT_CHECK_SENSORS);
     set_fit(0.365f);
     judge_several_times();
@@ -286,18 +306,34 @@ static void a_bound_above_the_limit_names_the_axis(void)
     }
 }
 
-static void entering_ready_takes_a_little_more_than_staying_there(void)
+static void ready_is_entered_at_the_limit_and_left_a_fifth_above_it(void)
 {
     make_ready();
     const jcal_hinge_result_t r = result_of(&engine);
-    engine.cfg.max_bound_rad = fmaxf(r.uncertainty1_rad, r.uncertainty2_rad) / 0.99f; /* above 98 % of the limit */
+    const float bound_rad = fmaxf(r.uncertainty1_rad, r.uncertainty2_rad);
+    engine.cfg.max_bound_rad = bound_rad / 1.19f;
     assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
-    engine.verdict.status = (uint8_t)JCAL_COLLECTING;
+    engine.cfg.max_bound_rad = bound_rad / 1.21f;
     judge_several_times();
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, result_of(&engine).head.reason);
     TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).head.status);
-    engine.cfg.max_bound_rad *= 0.99f / 0.97f; /* 97 % */
+    engine.cfg.max_bound_rad = bound_rad / 1.01f;
+    judge_several_times();
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, result_of(&engine).head.reason);
+    engine.cfg.max_bound_rad = bound_rad / 0.99f;
     assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
+}
+
+static void an_estimate_that_begins_anew_says_what_it_waits_for(void)
+{
+    make_ready();
+    jcal_hinge_go_round(&engine);
+    const jcal_hinge_result_t r = result_of(&engine);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.head.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_JOINT, r.head.hint);
+    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_AXIS1, r.head.weak);
+    TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, r.uncertainty1_rad); /* that of the old estimate means nothing */
 }
 
 static void ready_takes_six_judgements_in_a_row_that_agree(void)
@@ -374,7 +410,8 @@ int main(void)
     RUN_TEST(a_joint_that_did_not_move_enough_is_said_so_before_anything_else);
     RUN_TEST(residuals_of_a_third_of_the_rate_of_the_joint_do_not_fit);
     RUN_TEST(a_bound_above_the_limit_names_the_axis);
-    RUN_TEST(entering_ready_takes_a_little_more_than_staying_there);
+    RUN_TEST(ready_is_entered_at_the_limit_and_left_a_fifth_above_it);
+    RUN_TEST(an_estimate_that_begins_anew_says_what_it_waits_for);
     RUN_TEST(ready_takes_six_judgements_in_a_row_that_agree);
     RUN_TEST(without_bounds_after_many_rounds_it_is_known_why);
     return UNITY_END();

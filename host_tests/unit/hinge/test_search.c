@@ -4,6 +4,7 @@
 #include "hinge/refine.h"
 #include "hinge/search.h"
 #include "hinge/stream.h"
+#include "joint/sign.h"
 #include "math/solve.h"
 #include "unit/hinge/double.h"
 #include "unit/hinge/motion.h"
@@ -369,7 +370,7 @@ static void with_a_hint_no_other_pairing_is_ever_filed(void)
 {
     const jcal_hinge_point_t right = truth();
     const jcal_hinge_point_t wrong = turned(&right);
-    const bool same = jcal_hinge_main_sign(right.axis1.j) == jcal_hinge_main_sign(right.axis2.j);
+    const bool same = jcal_sign_main(right.axis1.j) == jcal_sign_main(right.axis2.j);
     engine.cfg.sign_hint = same ? JCAL_SIGN_OPPOSITE : JCAL_SIGN_SAME; /* the wrong one */
     place_at(wrong);
     end_probe_at(right);
@@ -501,11 +502,11 @@ static void both_signs_turned_together_are_the_same_pairing(void)
 
 static void the_main_sign_is_that_of_the_largest_component(void)
 {
-    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_hinge_main_sign(jcal_vec3(0.5f, -0.4f, -0.3f)));
-    TEST_ASSERT_EQUAL_FLOAT(-1.0f, jcal_hinge_main_sign(jcal_vec3(0.4f, -0.5f, 0.3f)));
-    TEST_ASSERT_EQUAL_FLOAT(-1.0f, jcal_hinge_main_sign(jcal_vec3(0.4f, 0.3f, -0.5f)));
-    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_hinge_main_sign(jcal_vec3(-0.4f, -0.3f, 0.5f)));
-    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_hinge_main_sign(jcal_vec3(0.0f, 0.0f, 0.0f)));
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_sign_main(jcal_vec3(0.5f, -0.4f, -0.3f)));
+    TEST_ASSERT_EQUAL_FLOAT(-1.0f, jcal_sign_main(jcal_vec3(0.4f, -0.5f, 0.3f)));
+    TEST_ASSERT_EQUAL_FLOAT(-1.0f, jcal_sign_main(jcal_vec3(0.4f, 0.3f, -0.5f)));
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_sign_main(jcal_vec3(-0.4f, -0.3f, 0.5f)));
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_sign_main(jcal_vec3(0.0f, 0.0f, 0.0f)));
 }
 
 int main(void)

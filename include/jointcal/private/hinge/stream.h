@@ -34,7 +34,8 @@ typedef struct {
     jcal_hinge_amount_t amount;
     float credit_s;  ///< Time not yet paid for with slices of work.
     uint64_t last_us;
-    uint8_t slice;  ///< Next slice of the cycle.
+    uint8_t slice;        ///< Next slice of the cycle.
+    int8_t kept_sign[2];  ///< Signs of both axes from the first `ready` on; lib/joint/sign.h.
     bool has_last;
 } jcal_hinge_t;
 
