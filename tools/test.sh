@@ -75,7 +75,13 @@ declare -A builds=(
     [m3]=m3 [m7]=m7 [m33]=m33 [m0]=m0 [bits]=host [board]="host m4f" [budget]=host
 )
 
-part_format() { cmake --build --preset host --target format_check > /dev/null; }
+part_format() { # Ninja prints the names of all files
+    local output
+    output=$(cmake --build --preset host --target format_check 2>&1) || {
+        cut -c 1-300 <<< "$output"
+        return 1
+    }
+}
 part_tidy() { cmake --build --preset host --target tidy; }
 part_cppcheck() { cmake --build --preset host --target cppcheck; }
 part_host() { ctest_preset host; }

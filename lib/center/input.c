@@ -4,7 +4,7 @@
 #include "center/input.h"
 
 #include "math/clear.h"
-#include "sample/inbox.h"
+#include "sample/ring.h"
 #include "sample/unit.h"
 
 #include <stddef.h>
@@ -20,7 +20,7 @@ void jcal_center_input_begin(jcal_center_input_t *self)
 
 bool jcal_center_input_full(const jcal_center_input_t *self)
 {
-    return jcal_inbox_full(&self->inbox);
+    return jcal_ring_waiting(&self->inbox.ring) >= JCAL_INBOX_CAPACITY;
 }
 
 static bool is_same(jcal_quat_t a, jcal_quat_t b)
@@ -57,7 +57,8 @@ static jcal_reject_t check_attitudes(jcal_center_attitudes_t *self, const jcal_g
 jcal_status_t jcal_center_input_push(jcal_center_input_t *self, const jcal_center_config_t *cfg,
                                      const jcal_pair_t *pair, const jcal_attitudes_t *attitudes)
 {
-    if (jcal_center_input_full(self)) {
+    uint32_t slot;
+    if (!jcal_ring_room(&self->inbox.ring, &slot)) {
         return JCAL_ERR_FULL;
     }
     const jcal_reject_t cause =
@@ -70,22 +71,24 @@ jcal_status_t jcal_center_input_push(jcal_center_input_t *self, const jcal_cente
         return JCAL_REJECTED;
     }
     if (attitudes != NULL) {
-        volatile jcal_attitudes_t *const slot = &self->attitudes[self->inbox.written % JCAL_INBOX_CAPACITY];
-        *slot = *attitudes; /* before the inbox says that there is something */
+        self->attitudes[slot] = *attitudes;
     }
-    jcal_inbox_put(&self->inbox, pair);
+    self->inbox.slots[slot] = *pair;
+    jcal_ring_publish(&self->inbox.ring);
     return JCAL_OK;
 }
 
 jcal_center_input_event_t jcal_center_input_take(jcal_center_input_t *self, const jcal_center_config_t *cfg,
                                                  jcal_kinematic_t *sample)
 {
-    const jcal_attitudes_t attitudes = self->attitudes[self->inbox.taken % JCAL_INBOX_CAPACITY];
     const bool is_oriented = cfg->method == JCAL_CENTER_LS;
-    jcal_pair_t pair;
-    if (!jcal_inbox_take(&self->inbox, &pair)) {
+    uint32_t slot;
+    if (!jcal_ring_peek(&self->inbox.ring, &slot)) {
         return JCAL_CENTER_NONE;
     }
+    const jcal_pair_t pair = self->inbox.slots[slot];
+    const jcal_attitudes_t attitudes = self->attitudes[slot];
+    jcal_ring_release(&self->inbox.ring);
     if (!jcal_kinematics_put(&self->kinematics, &cfg->kinematics, &pair, is_oriented ? &attitudes : NULL, sample)) {
         return JCAL_CENTER_WAITS;
     }

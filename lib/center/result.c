@@ -47,6 +47,7 @@ static void tell_nothing(jcal_center_result_t *out)
         out->head.status = JCAL_COLLECTING;
         out->head.reason = JCAL_REASON_UNCERTAIN;
         out->head.hint = JCAL_HINT_MOVE_JOINT;
+        out->head.weak = JCAL_WEAK_CENTER1;
     }
 }
 
@@ -69,8 +70,10 @@ void jcal_center_report(const jcal_center_config_t *cfg, const jcal_center_work_
     }
     out->progress1 = progress(out->uncertainty1_m, cfg->max_bound_m);
     out->progress2 = progress(out->uncertainty2_m, cfg->max_bound_m);
-    jcal_head_complain(&out->head, jcal_gate_complaint(&input->gate));
+    const jcal_weak_t weakest = (out->uncertainty2_m > out->uncertainty1_m) ? JCAL_WEAK_CENTER2 : JCAL_WEAK_CENTER1;
+    jcal_head_complain(&out->head, jcal_gate_complaint(&input->gate), weakest);
     jcal_head_count(&out->head, input->gate.samples, input->gate.rejected_by);
+    out->head.overrun = input->inbox.ring.overrun;
 }
 
 jcal_status_t jcal_center_get(const jcal_center_t *self, jcal_center_result_t *out)

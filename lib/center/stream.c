@@ -13,6 +13,7 @@
 #include "math/scalar.h"
 #include "math/solve.h"
 #include "math/sym.h"
+#include "sample/ring.h"
 
 #include <float.h>
 #include <math.h>
@@ -47,7 +48,10 @@
 #define TURN_MOVE (TURN_SOLVE + 1u)
 #define TURNS (JCAL_CENTER_JUDGE_SLICES + 2u)
 
-typedef char jcal_center_fits_its_budget[(sizeof(jcal_center_t) <= 5120u) ? 1 : -1];
+/// Of the inbox: with its four slots by default that makes 5 KiB.
+#define SLOT_BYTES (sizeof(jcal_pair_t) + sizeof(jcal_attitudes_t))
+typedef char jcal_center_fits_its_budget
+    [((sizeof(jcal_center_t) - (JCAL_INBOX_CAPACITY * SLOT_BYTES)) <= (5120u - (4u * SLOT_BYTES))) ? 1 : -1];
 
 /// Forgets what was learnt of the joint.
 static void begin_anew(jcal_center_t *self, jcal_calibration_t status)
@@ -319,6 +323,12 @@ jcal_status_t jcal_center_step(jcal_center_t *self)
 
 jcal_status_t jcal_center_update(jcal_center_t *self, const jcal_pair_t *pair)
 {
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    for (uint32_t left = jcal_ring_waiting(&self->input.inbox.ring); left > 0u; --left) {
+        (void)jcal_center_step(self); /* pushed without a step */
+    }
     const jcal_status_t status = jcal_center_push(self, pair);
     if (status >= JCAL_OK) {
         (void)jcal_center_step(self);

@@ -10,6 +10,7 @@
 #include "joint/watch.h"
 #include "jointcal/vec3.h"
 #include "math/clear.h"
+#include "sample/ring.h"
 
 #include <math.h>
 
@@ -226,6 +227,12 @@ jcal_status_t jcal_center_window_step(jcal_center_window_t *self)
 
 jcal_status_t jcal_center_window_update(jcal_center_window_t *self, const jcal_pair_t *pair)
 {
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    for (uint32_t left = jcal_ring_waiting(&self->input.inbox.ring); left > 0u; --left) {
+        (void)jcal_center_window_step(self); /* pushed without a step */
+    }
     const jcal_status_t status = jcal_center_window_push(self, pair);
     if (status >= JCAL_OK) {
         (void)jcal_center_window_step(self);

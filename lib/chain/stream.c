@@ -12,6 +12,7 @@
 #include "math/clear.h"
 #include "math/scalar.h"
 #include "math/sym.h"
+#include "sample/ring.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -121,6 +122,7 @@ jcal_status_t jcal_chain_push(jcal_chain_t *self, const jcal_triple_t *triple, c
         return JCAL_ERR_ARG;
     }
     if (jcal_center_input_full(&self->hip.input) || jcal_center_input_full(&self->knee.input)) {
+        self->overrun += 1u;
         return JCAL_ERR_FULL; /* before either joint takes anything: a sample that is pushed again must find no trace */
     }
     const jcal_pair_t pairs[2] = {{triple->t_us, triple->imu1, triple->imu2},
@@ -287,6 +289,7 @@ jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out)
     tell_status(self, &hip, &knee, fits, out);
     out->head.t_us = (hip.t_us > knee.t_us) ? hip.t_us : knee.t_us;
     jcal_head_count(&out->head, self->samples, self->rejected_by);
+    out->head.overrun = self->overrun;
     return JCAL_OK;
 }
 
@@ -324,11 +327,15 @@ jcal_status_t jcal_chain_step(jcal_chain_t *self)
 jcal_status_t jcal_chain_update(jcal_chain_t *self, const jcal_triple_t *triple,
                                 const jcal_triple_attitudes_t *attitudes)
 {
-    jcal_status_t status = jcal_chain_push(self, triple, attitudes);
-    if (status == JCAL_ERR_FULL) {
-        (void)jcal_chain_step(self); /* pushes without steps have filled an inbox: make room */
-        status = jcal_chain_push(self, triple, attitudes);
+    if (!is_prepared(self)) {
+        return JCAL_ERR_ARG;
     }
+    const uint32_t hip = jcal_ring_waiting(&self->hip.input.inbox.ring);
+    const uint32_t knee = jcal_ring_waiting(&self->knee.input.inbox.ring);
+    for (uint32_t left = (hip > knee) ? hip : knee; left > 0u; --left) {
+        (void)jcal_chain_step(self); /* pushed without a step */
+    }
+    const jcal_status_t status = jcal_chain_push(self, triple, attitudes);
     if (status >= JCAL_OK) {
         (void)jcal_chain_step(self);
     }

@@ -31,6 +31,12 @@ static inline int8_t jcal_sign_largest(jcal_vec3_t axis)
     return (int8_t)((all[largest] < 0.0f) ? -number : number);
 }
 
+/// +1 or -1: the sign of the component of largest magnitude.
+static inline float jcal_sign_main(jcal_vec3_t axis)
+{
+    return (jcal_sign_largest(axis) < 0) ? -1.0f : 1.0f;
+}
+
 /// True if a user may name this direction: finite, or zero for none.
 static inline bool jcal_sign_may_be_toward(jcal_vec3_t toward)
 {
@@ -38,19 +44,25 @@ static inline bool jcal_sign_may_be_toward(jcal_vec3_t toward)
            (fabsf(toward.z) <= JCAL_SIGN_TOWARD_MAX); /* false for NaN */
 }
 
+/// +1 or -1: the sign of the component that `kept` names; of the largest one while that is zero.
+static inline float jcal_sign_held(jcal_vec3_t axis, int8_t kept)
+{
+    const int number = (kept < 0) ? -kept : kept;
+    const float component = (number == 1) ? axis.x : ((number == 2) ? axis.y : axis.z);
+    return (number == 0) ? jcal_sign_main(axis) : ((component < 0.0f) ? -1.0f : 1.0f);
+}
+
 /// +1 or -1: what `axis` is to be multiplied by before it is reported. `toward`: zero for none; `kept`: the state.
 static inline float jcal_sign_of(jcal_vec3_t axis, jcal_vec3_t toward, int8_t kept)
 {
     if (kept != 0) {
-        const int number = (kept < 0) ? -kept : kept;
-        const float component = (number == 1) ? axis.x : ((number == 2) ? axis.y : axis.z);
-        return ((component < 0.0f) == (kept < 0)) ? 1.0f : -1.0f;
+        return ((kept < 0) ? -1.0f : 1.0f) * jcal_sign_held(axis, kept);
     }
     const float along = jcal_vec3_dot(axis, toward);
     if ((along > 0.0f) || (along < 0.0f)) {
         return (along < 0.0f) ? -1.0f : 1.0f;
     }
-    return (jcal_sign_largest(axis) < 0) ? -1.0f : 1.0f;
+    return jcal_sign_main(axis);
 }
 
 /// The state from the moment on at which a calibration is ready: the sign that `axis` is reported with stays.

@@ -52,7 +52,8 @@ void jcal_two_dof_report(const jcal_two_dof_verdict_t *verdict, const jcal_two_d
 
 void jcal_two_dof_report_gate(const jcal_orientation_gate_t *gate, jcal_two_dof_result_t *out)
 {
-    jcal_head_complain(&out->head, jcal_orientation_gate_complaint(gate));
+    const bool first = out->uncertainty1_rad >= out->uncertainty2_rad;
+    jcal_head_complain(&out->head, jcal_orientation_gate_complaint(gate), first ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2);
     jcal_head_count(&out->head, gate->samples, gate->rejected_by);
 }
 
@@ -65,5 +66,6 @@ jcal_status_t jcal_two_dof_get(const jcal_two_dof_t *self, jcal_two_dof_result_t
     jcal_two_dof_report_gate(&self->gate, out);
     out->head.engine = JCAL_ENGINE_STREAM;
     out->head.t_us = self->t_us;
+    out->head.overrun = self->kept.ring.overrun;
     return JCAL_OK;
 }

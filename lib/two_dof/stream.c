@@ -4,12 +4,12 @@
 #include "jointcal/two_dof.h"
 
 #include "joint/watch.h"
-#include "jointcal/quat.h"
 #include "math/angle.h"
 #include "math/clear.h"
 #include "math/scalar.h"
-#include "sample/rate.h"
+#include "sample/ring.h"
 #include "two_dof/judge.h"
+#include "two_dof/kept.h"
 #include "two_dof/memory.h"
 #include "two_dof/model.h"
 #include "two_dof/prior.h"
@@ -20,14 +20,9 @@
 #include <float.h>
 #include <stddef.h>
 
-#define MICROSECONDS 1e-6f
-
 /// Orientations are kept this far apart, us: rates come from every other one, so this sets their low-pass, a mean over 80 ms (the
 /// first zero of its response lies at 12.5 Hz, -3 dB at 5.5 Hz) that has no delay against the orientation in the middle.
 #define KEEP_US 38000u
-/// Two kept orientations further apart than this have no rate between them, s.
-#define APART_MAX_S 0.12f
-
 /// What may pass for usual by the watch, times the variance in the config: errors of the inclination come and go within seconds.
 #define WATCH_SHARE 5.0f
 
@@ -45,7 +40,10 @@
 /// Turns of the cycle of estimate, judgement and search; the last of them are the probe's.
 enum { TURN_TRACK = 0, TURN_JUDGE = 1, TURN_FADE = 2, TURN_DRIFT = 3, TURN_RIVAL = 4, TURN_PROBE = 5, TURNS = 9 };
 
-typedef char jcal_two_dof_fits_its_budget[(sizeof(jcal_two_dof_t) <= 4096u) ? 1 : -1];
+/// Of the inbox: with its four slots by default that makes 4 KiB.
+#define SLOT_BYTES (sizeof(jcal_orientation_pair_t) + 1u)
+typedef char jcal_two_dof_fits_its_budget
+    [((sizeof(jcal_two_dof_t) - (JCAL_INBOX_CAPACITY * SLOT_BYTES)) <= (4096u - (4u * SLOT_BYTES))) ? 1 : -1];
 
 /// Forgets all that was learnt of the joint and begins again with the given status; samples, counters and config stay.
 static void begin_anew(jcal_two_dof_t *self, jcal_calibration_t status)
@@ -96,51 +94,7 @@ jcal_status_t jcal_two_dof_push(jcal_two_dof_t *self, const jcal_orientation_pai
     if (!is_prepared(self) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
-    const uint32_t at = self->written;
-    if (at != self->taken) {
-        return JCAL_ERR_FULL; /* the three before it are still needed */
-    }
-    if (jcal_orientation_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
-        return JCAL_REJECTED;
-    }
-    self->pushes = (uint8_t)((self->pushes < UINT8_MAX) ? (self->pushes + 1u) : UINT8_MAX);
-    if ((at > 0u) && ((pair->t_us - self->ring[(at - 1u) % JCAL_TWO_DOF_RING].t_us) < KEEP_US)) {
-        return JCAL_OK;
-    }
-    jcal_orientation_pair_t *const slot = &self->ring[at % JCAL_TWO_DOF_RING];
-    slot->t_us = pair->t_us;
-    slot->q1 = jcal_quat_normalise(pair->q1);
-    slot->q2 = jcal_quat_normalise(pair->q2);
-    self->written = at + 1u;
-    return JCAL_OK;
-}
-
-/// The kept orientation `back` before the last one taken.
-static const jcal_orientation_pair_t *kept(const jcal_two_dof_t *self, uint32_t back)
-{
-    return &self->ring[(self->taken - 1u - back) % JCAL_TWO_DOF_RING];
-}
-
-/// The sample in the middle of the last three kept; false if there is none. `dt_s` is the time it stands for.
-static bool middle(const jcal_two_dof_t *self, jcal_two_dof_sample_t *sample, float *dt_s)
-{
-    if (self->taken < 3u) {
-        return false;
-    }
-    const jcal_orientation_pair_t *const before = kept(self, 2u);
-    const jcal_orientation_pair_t *const at = kept(self, 1u);
-    const jcal_orientation_pair_t *const after = kept(self, 0u);
-    const float to_s = (float)(at->t_us - before->t_us) * MICROSECONDS;
-    const float on_s = (float)(after->t_us - at->t_us) * MICROSECONDS;
-    if ((to_s > APART_MAX_S) || (on_s > APART_MAX_S)) {
-        return false;
-    }
-    *dt_s = 0.5f * (to_s + on_s);
-    sample->q1 = at->q1;
-    sample->q2 = at->q2;
-    sample->w1 = jcal_rate_between(before->q1, after->q1, to_s + on_s);
-    sample->w2 = jcal_rate_between(before->q2, after->q2, to_s + on_s);
-    return true;
+    return jcal_two_dof_keep(&self->kept, &self->gate, &self->cfg.gate, pair, KEEP_US);
 }
 
 static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float rate2)
@@ -183,12 +137,13 @@ static void add_orientation(jcal_two_dof_t *self, const jcal_orientation_pair_t 
 /// Rotation-based moments of the sample last taken.
 static void sum_rotation(jcal_two_dof_t *self)
 {
-    jcal_two_dof_sample_t sample;
-    float dt_s;
+    jcal_two_dof_middle_t middle;
     self->time_s = 0.0f;
-    if (!middle(self, &sample, &dt_s)) {
+    if (!jcal_two_dof_middle(&self->kept, &middle)) {
         return;
     }
+    const jcal_two_dof_sample_t sample = {.q1 = middle.at->q1, .q2 = middle.at->q2, .w1 = middle.w1, .w2 = middle.w2};
+    const float dt_s = middle.dt_s;
     const float rate2 = jcal_vec3_dot(sample.w1, sample.w1) + jcal_vec3_dot(sample.w2, sample.w2);
     self->time_s = dt_s * jcal_watch_motion(rate2);
     self->age_s = (self->age_s + dt_s) * (self->moving_s / (self->moving_s + self->time_s + FLT_MIN));
@@ -200,9 +155,9 @@ static void sum_rotation(jcal_two_dof_t *self)
 static void sum_orientation(jcal_two_dof_t *self)
 {
     if (self->time_s > 0.0f) {
-        add_orientation(self, kept(self, 1u));
+        add_orientation(self, &self->kept.last[1]);
         self->moving_s += self->time_s;
-        self->t_us = kept(self, 1u)->t_us;
+        self->t_us = self->kept.last[1].t_us;
     }
     if (jcal_watch_alarm(&self->watch)) {
         begin_anew(self, JCAL_MOVED);
@@ -215,7 +170,7 @@ static jcal_two_dof_landscape_t landscape_of(const jcal_two_dof_t *self)
     const jcal_two_dof_landscape_t landscape = {
         .moments = &self->moments,
         .prior = &self->prior,
-        .pose = kept(self, 0u),
+        .pose = &self->kept.last[0],
         .constraint = self->cfg.constraint,
         .moving_s = self->moving_s,
         .excess = self->verdict.excess,
@@ -354,16 +309,10 @@ static void do_item(jcal_two_dof_t *self)
     self->item = (uint8_t)(self->item + 1u);
 }
 
-/// Takes the waiting orientation. Moments of the one before it that are still to be summed are summed first.
-static void take(jcal_two_dof_t *self)
+/// Begins with an orientation that has just been taken, for which so many samples were pushed.
+static void begin_items(jcal_two_dof_t *self, unsigned pushes)
 {
-    while (self->item <= ITEM_ORIENTATION) {
-        do_item(self);
-    }
-    const unsigned pushes = (self->pushes > 0u) ? self->pushes : 1u;
     self->share = (uint8_t)((ITEMS + pushes - 1u) / pushes);
-    self->pushes = 0u;
-    self->taken = self->taken + 1u;
     self->item = 0u;
     self->odd = !self->odd;
 }
@@ -373,8 +322,13 @@ jcal_status_t jcal_two_dof_step(jcal_two_dof_t *self)
     if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
-    if (self->written != self->taken) {
-        take(self);
+    const bool waits = jcal_ring_waiting(&self->kept.ring) > 0u;
+    while (waits && (self->item <= ITEM_ORIENTATION)) {
+        do_item(self); /* moments of the one before that are still to be summed */
+    }
+    unsigned pushes;
+    if (waits && jcal_two_dof_take(&self->kept, &pushes)) {
+        begin_items(self, pushes);
     } else if (self->item >= items_of(self)) {
         return JCAL_IDLE;
     } else {
@@ -388,6 +342,12 @@ jcal_status_t jcal_two_dof_step(jcal_two_dof_t *self)
 
 jcal_status_t jcal_two_dof_update(jcal_two_dof_t *self, const jcal_orientation_pair_t *pair)
 {
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    for (uint32_t left = jcal_ring_waiting(&self->kept.ring); left > 0u; --left) {
+        (void)jcal_two_dof_step(self); /* pushed without a step */
+    }
     const jcal_status_t status = jcal_two_dof_push(self, pair);
     if (status >= JCAL_OK) {
         (void)jcal_two_dof_step(self);

@@ -658,6 +658,7 @@ static void a_push_that_finds_no_room_leaves_no_trace(void)
             TEST_ASSERT_EQUAL_INT((k == 2u) ? JCAL_REJECTED : ((k < JCAL_INBOX_CAPACITY) ? JCAL_OK : JCAL_ERR_FULL),
                                   status);
             if (status == JCAL_ERR_FULL) {
+                TEST_ASSERT_EQUAL_UINT32((k - JCAL_INBOX_CAPACITY) + 1u, result().head.overrun);
                 TEST_ASSERT_EQUAL_MEMORY(&before.hip, &engine.hip, sizeof before.hip);
                 TEST_ASSERT_EQUAL_MEMORY(&before.knee, &engine.knee, sizeof before.knee);
             }

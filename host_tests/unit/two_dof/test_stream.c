@@ -362,13 +362,15 @@ static void push_and_step_are_update_and_a_copy_goes_on_alike(void)
 static void without_step_the_ring_is_full(void)
 {
     const sim_t sim = lively(1);
-    const jcal_orientation_pair_t first = sample_of(&sim, 0);
-    const jcal_orientation_pair_t second = sample_of(&sim, 4);
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &first));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_FULL, jcal_two_dof_push(&engine, &second));
-    TEST_ASSERT_EQUAL_UINT32(1u, result_of(&engine).head.samples);
+    for (uint32_t k = 0; k < JCAL_INBOX_CAPACITY; ++k) {
+        const jcal_orientation_pair_t pair = sample_of(&sim, 4u * k);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &pair));
+    }
+    const jcal_orientation_pair_t next = sample_of(&sim, 4u * JCAL_INBOX_CAPACITY);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_FULL, jcal_two_dof_push(&engine, &next));
+    TEST_ASSERT_EQUAL_UINT32(JCAL_INBOX_CAPACITY, result_of(&engine).head.samples);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_step(&engine));
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &second));
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &next));
 }
 
 static void null_is_refused(void)
@@ -490,6 +492,7 @@ static void a_source_that_fails_is_not_ready_for_long(void)
         TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
         TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, r.head.reason);
         TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
         const uint32_t again = last + ((fault == FAULT_GAPS) ? (80u * RATE_HZ) : (2u * RATE_HZ));
         feed(&engine, &sim, again + 1u, again + (8u * RATE_HZ)); /* the axes were not forgotten */
         TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
@@ -563,7 +566,7 @@ static void pushes_without_a_step_do_not_overflow(void)
         pair.t_us = begin_us + (10u * k); /* none of which is kept */
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_push(&engine, &pair));
     }
-    TEST_ASSERT_EQUAL_UINT8(UINT8_MAX, engine.pushes);
+    TEST_ASSERT_EQUAL_UINT8(UINT8_MAX, engine.kept.pushes);
 }
 
 int main(void)

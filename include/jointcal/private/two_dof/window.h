@@ -19,11 +19,9 @@ typedef struct {
     jcal_two_dof_window_config_t cfg;
     void *storage;
     jcal_orientation_gate_t gate;
-    jcal_orientation_pair_t ring[JCAL_TWO_DOF_RING];
-    volatile uint32_t written;  ///< Orientations ever put in; written by push only.
-    volatile uint32_t taken;    ///< Orientations ever taken out; written by step only.
-    uint16_t count;             ///< Rows in the storage.
-    uint16_t next;              ///< Where the next one goes.
+    jcal_two_dof_kept_t kept;
+    uint16_t count;  ///< Rows in the storage.
+    uint16_t next;   ///< Where the next one goes.
     jcal_two_dof_window_search_t search;
     jcal_two_dof_verdict_t verdict;
 } jcal_two_dof_window_t;
