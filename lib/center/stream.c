@@ -84,6 +84,9 @@ static bool is_axis(jcal_vec3_t v)
 
 const char *jcal_center_config_check(const jcal_center_config_t *config)
 {
+    if (config == NULL) {
+        return "config";
+    }
     const field_t fields[] = {
         {"max_bound_m", config->max_bound_m, 0.001f, 0.1f},
         {"mismatch_m", config->mismatch_m, 0.0f, 0.05f},

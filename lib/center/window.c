@@ -41,6 +41,9 @@ jcal_center_window_config_t jcal_center_window_config_default(void)
 
 const char *jcal_center_window_config_check(const jcal_center_window_config_t *config)
 {
+    if (config == NULL) {
+        return "config";
+    }
     const char *const wrong = jcal_center_config_check(&config->center);
     if (wrong != NULL) {
         return wrong;
@@ -50,7 +53,7 @@ const char *jcal_center_window_config_check(const jcal_center_window_config_t *c
 
 size_t jcal_center_window_storage_bytes(const jcal_center_window_config_t *config)
 {
-    return JCAL_CENTER_WINDOW_STORAGE_BYTES(config->n_max);
+    return (config == NULL) ? 0u : JCAL_CENTER_WINDOW_STORAGE_BYTES(config->n_max);
 }
 
 /// Forgets what was learnt of the joint.

@@ -75,7 +75,7 @@
 #define SETTLED_ROUNDS 4u
 
 /// With the slots of the default inbox.
-typedef char jcal_hinge_fits_its_budget[((sizeof(jcal_hinge_t) - sizeof(jcal_inbox_t)) <= (2048u - 240u)) ? 1 : -1];
+typedef char jcal_hinge_fits_its_budget[((sizeof(jcal_hinge_t) - sizeof(jcal_inbox_t)) <= (2048u - 232u)) ? 1 : -1];
 
 jcal_hinge_config_t jcal_hinge_config_default(void)
 {
@@ -100,6 +100,9 @@ typedef struct {
 
 const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
 {
+    if (config == NULL) {
+        return "config";
+    }
     const field_t fields[] = {
         {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
         {"rate_mismatch", config->rate_mismatch, 0.0f, 0.05f},

@@ -58,6 +58,9 @@ typedef struct {
 
 const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config)
 {
+    if (config == NULL) {
+        return "config";
+    }
     const field_t fields[] = {
         {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
         {"mismatch_rad", config->mismatch_rad, 0.0f, 0.1f},
