@@ -60,6 +60,9 @@ void report_apply_findings(report_t *report);
 /// Why the status is not ready, in words; null if it is.
 const char *report_reason(const report_t *report);
 
+/// What would help, in words; null if nothing is known that would.
+const char *report_help(const report_t *report);
+
 /// Begins a line of JSON: the keys from `event` to `reason`. `event` is estimate, ready, moved or end.
 json_t report_json_begin(FILE *file, const char *event, const report_t *report);
 

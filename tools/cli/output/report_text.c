@@ -86,7 +86,7 @@ const char *report_reason(const report_t *report)
     }
 }
 
-static const char *hint_words(const report_t *report)
+const char *report_help(const report_t *report)
 {
     switch (report->head.hint) {
     case JCAL_HINT_MOVE_JOINT:
@@ -253,7 +253,7 @@ static void print_help(FILE *file, const report_t *report)
     const check_findings_t *findings = &report->findings;
     const bool explained = findings->explains && report->head.status != JCAL_READY;
     if (!explained) {
-        report_print_words(file, "what would help", hint_words(report));
+        report_print_words(file, "what would help", report_help(report));
     }
     for (size_t k = explained ? 1 : 0; k < findings->count; k++) {
         report_print_words(file, "about the data", findings->sentences[k]);
