@@ -380,7 +380,8 @@ static void tell(const session_t *session)
                  (reason != NULL) ? reason : "the heading is not known in any row",
                  (help != NULL) ? "; what would help: " : "", (help != NULL) ? help : "");
     }
-    for (size_t k = told; k < findings->count; k++) {
+    const bool matters = source->rows == 0 || !source->at_end || findings->refuses;
+    for (size_t k = told; matters && k < findings->count; k++) {
         complain(name, 0, 0, "%s", findings->sentences[k]);
     }
 }

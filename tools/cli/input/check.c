@@ -72,6 +72,7 @@ static void say_same(const check_t *check, check_findings_t *findings)
             say(findings, "the %s of sensor %d are those of sensor %d: the same sensor was written twice", what,
                 PAIRS[k][1] + 1, PAIRS[k][0] + 1);
             findings->refuses = true;
+            findings->reason = JCAL_REASON_BAD_SAMPLES;
         }
     }
 }
@@ -142,6 +143,23 @@ static void say_acc_unit(check_findings_t *findings, int sensor, double gravity)
         sensor, gravity);
 }
 
+static jcal_reason_t reason_of(check_sensor_fault_t fault)
+{
+    switch (fault) {
+    case CHECK_SENSOR_RATE_UNIT:
+        return JCAL_REASON_WRONG_UNITS_GYR;
+    case CHECK_SENSOR_ACC_UNIT:
+        return JCAL_REASON_WRONG_UNITS_ACC;
+    case CHECK_SENSOR_FRAMES:
+    case CHECK_SENSOR_TURNS_BACK:
+    case CHECK_SENSOR_RATES:
+    case CHECK_SENSOR_NO_GRAVITY:
+    case CHECK_SENSOR_FINE:
+    default:
+        return JCAL_REASON_BAD_SAMPLES;
+    }
+}
+
 static void say_sensor(const check_sensor_t *sensor, int number, check_findings_t *findings)
 {
     const check_sensor_verdict_t verdict = check_sensor_verdict(sensor);
@@ -177,6 +195,9 @@ static void say_sensor(const check_sensor_t *sensor, int number, check_findings_
         return;
     }
     findings->refuses = true;
+    if (findings->reason == JCAL_REASON_NONE || findings->reason == JCAL_REASON_BAD_SAMPLES) {
+        findings->reason = reason_of(verdict.fault);
+    }
 }
 
 /* How often a reading comes, for all sensors that share it. */
@@ -244,6 +265,9 @@ void check_findings(const check_t *check, check_findings_t *findings)
         say_sensors(check, findings);
     }
     findings->explains = findings->count > 0;
+    if (findings->reason == JCAL_REASON_NONE || times_explain) {
+        findings->reason = JCAL_REASON_BAD_SAMPLES;
+    }
     if (!times_explain) {
         say_times(check, findings);
     }

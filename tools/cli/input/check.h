@@ -11,6 +11,8 @@
 #include "input/check_sensor.h"
 #include "input/check_time.h"
 
+#include "jointcal/status.h"
+
 #define CHECK_SENSORS 3
 #define CHECK_PAIRS 3
 
@@ -39,8 +41,9 @@ typedef struct {
 } check_t;
 
 typedef struct {
-    bool refuses;   ///< Nothing may be called ready.
-    bool explains;  ///< The first sentence says why it is not.
+    bool refuses;          ///< Nothing may be called ready.
+    bool explains;         ///< The first sentence says why it is not ...
+    jcal_reason_t reason;  ///< ... and this is the library's word for it.
     size_t count;
     sentence_t sentences[CHECK_SENTENCES];
 } check_findings_t;

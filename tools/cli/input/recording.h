@@ -87,6 +87,9 @@ __attribute__((format(printf, 2, 3))) recording_event_t recording_refuse(recordi
 /// Reads one row.
 recording_event_t recording_next(recording_t *recording, recording_row_t *row);
 
+/// Shows a row to a check, as recording_next does to the recording's own.
+void recording_watch(check_t *check, const recording_row_t *row, bool third);
+
 /// Releases memory.
 void recording_close(recording_t *recording);
 

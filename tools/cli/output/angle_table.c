@@ -12,6 +12,9 @@
 
 #define DEG_PER_RAD 57.2957795f
 
+/* Axes that may be off by more than this are still being sought: what jumps with them is no turn. */
+#define FOLLOW_BOUND_RAD 0.2f
+
 static exit_status_t failed(const angle_table_t *table)
 {
     return complain_output(table->name);
@@ -64,7 +67,7 @@ static void write_row(angle_table_t *table, const angles_row_t *row)
             angles.pronation_rad = follow(angles.pronation_rad, table->last_deg.pronation_rad);
         }
         table->last_deg = angles;
-        table->has_last = true;
+        table->has_last = row->bound_rad < FOLLOW_BOUND_RAD;
     }
     const float values[ANGLE_TABLE_COLUMNS] = {angles.flexion_rad, angles.pronation_rad, angles.carrying_rad,
                                                DEG_PER_RAD * row->heading_rad, DEG_PER_RAD * row->bound_rad};

@@ -51,7 +51,9 @@ void report_apply_findings(report_t *report)
         head->status = JCAL_COLLECTING;
     }
     if (report->findings.explains && head->status != JCAL_READY) {
-        head->reason = JCAL_REASON_BAD_SAMPLES;
+        /* The library's word on the unit of rates says more than that samples are bad. */
+        const bool keep = head->reason == JCAL_REASON_WRONG_UNITS_GYR && report->findings.refuses;
+        head->reason = keep ? head->reason : report->findings.reason;
         head->hint = JCAL_HINT_CHECK_SENSORS;
     }
 }
@@ -79,7 +81,7 @@ const char *report_reason(const report_t *report)
     case JCAL_REASON_WRONG_UNITS_GYR:
         return "angular rates look like deg/s; rad/s are needed";
     case JCAL_REASON_WRONG_UNITS_ACC:
-        return "accelerations look like g; m/s^2 are needed";
+        return "accelerations are too small; m/s^2 are needed, with gravity in them: a sensor at rest reads 9.81";
     case JCAL_REASON_NONE:
     default:
         return NULL;
