@@ -329,7 +329,8 @@ class Series(AnglesTest):
         self.assertLess(best[0][0], ready[0][0])
         self.assertGreater(best[0][2], 3.0)
         self.assertLess(best[-1][2], 3.0)
-        self.assertEqual(best[-1][:2], ready[-1])
+        self.assertEqual(best[-1][0], ready[-1][0])
+        self.assertLess(abs(best[-1][1] - ready[-1][1]), 0.5)  # the heading has been followed for longer
         self.assertTrue(all((row[1] is None) == (row[2] is None) for row in rows))
         header, rows = self.rows(self.angles(ELBOW, "two-dof", "--accept", "best"))
         self.assertEqual(header, TWO_DOF_HEADER + ",bound_deg")
