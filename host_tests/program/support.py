@@ -18,6 +18,11 @@ WINDOW_KEYS = KEYS[:11] + ["paper_accepted"] + KEYS[11:]
 CELLS = recordings.texts(recordings.hinge_rows(20))
 FILE = recordings.csv(CELLS)
 SHORT = recordings.csv(CELLS[:50])
+TWO_DOF_DEMO = pathlib.Path(__file__).resolve().parents[2] / "tools" / "demo" / "two_dof_demo.csv"
+# The program may be built without the filter that computes orientations.
+WITHOUT_FILTER = b"built without" in subprocess.run([PROGRAM, "two-dof", str(TWO_DOF_DEMO)], capture_output=True,
+                                                    check=False).stderr
+needs_filter = unittest.skipIf(WITHOUT_FILTER, "the program was built without VQF")
 
 
 def no_constants(name):

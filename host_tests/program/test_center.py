@@ -152,6 +152,7 @@ class Refused(CenterTest):
         for option in ("method", "derivative", "smoothing", "min-rate", "acc-bias", "calibration", "engine", "n-max", "window", "every",
                        "max-bound", "json"):
             self.assertIn("--" + option, result.stdout.decode())
+        self.assertIn("For research, ls:", " ".join(result.stdout.decode().split()))
         self.assertIn("center", self.run_program("--help").stdout.decode())
 
     def test_options_that_do_not_go_together(self):

@@ -71,6 +71,37 @@ class Checks(unittest.TestCase):
         names = 'static const char *const names[] = {"a", "b"};\nconst char *jcal_n(int i) { return names[i]; }\n'
         self.assertEqual(self.archive_check(names).returncode, 0)
 
+    def include_check(self, **changes):
+        """A small tree: lib/math/low, lib/hinge/{sums,judge,stream}, one public header. `changes` are files by their name."""
+        files = {"lib/layers.txt": "math <-\nhinge <- math\nhinge: sums judge stream\n",
+                 "lib/math/low.h": "", "include/jointcal/hinge.h": "",
+                 "lib/hinge/sums.h": '#include "math/low.h"\n', "lib/hinge/judge.h": '#include "hinge/sums.h"\n',
+                 "lib/hinge/stream.c": '#include "hinge/judge.h"\n#include "jointcal/hinge.h"\n'}
+        files.update({name.replace("__", "/").replace("_dot_", "."): text for name, text in changes.items()})
+        for name, text in files.items():
+            (self.path / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.path / name).write_text(GOOD + text if name != "lib/layers.txt" else text)
+        return subprocess.run([sys.executable, SCRIPTS / "check_includes.py", self.path], capture_output=True, text=True)
+
+    def test_arrows_that_run_down_are_fine(self):
+        result = self.include_check()
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+
+    def test_an_include_that_runs_up_is_found(self):
+        self.assertIn("hinge/judge is not below it", self.include_check(lib__hinge__sums_dot_h='#include "hinge/judge.h"\n').stderr)
+        self.assertIn("math may not use hinge", self.include_check(lib__math__low_dot_h='#include "hinge/sums.h"\n').stderr)
+
+    def test_a_call_that_runs_up_is_found_without_its_header(self):
+        result = self.include_check(lib__hinge__stream_dot_c="void jcal_go(void)\n{\n}\n",
+                                    lib__hinge__sums_dot_c="void jcal_add(void)\n{\n    jcal_go();\n}\n")
+        self.assertIn("hinge/stream is not below it", result.stderr)
+
+    def test_circles_places_and_private_state_are_found(self):
+        self.assertIn("circle", self.include_check(include__jointcal__hinge_dot_h='#include "jointcal/types.h"\n',
+                                                   include__jointcal__types_dot_h='#include "jointcal/hinge.h"\n').stderr)
+        self.assertIn("no place", self.include_check(lib__hinge__more_dot_c='#include "hinge/sums.h"\n').stderr)
+        self.assertIn("private state", self.include_check(include__jointcal__hinge_dot_h="/// Private: sums.\n").stderr)
+
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])

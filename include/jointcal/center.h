@@ -1,10 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Joint centre: where both sensors sit relative to the joint, from gyroscopes and accelerometers. Stream engine, and what both
-/// engines share.
+/// Joint centre: where both sensors sit relative to the joint, from rates and specific forces. Stream engine, and what both engines
+/// say.
 ///
-/// Primary sources: [OLS17], [SEE12]. Unknowns are r1 and r2, from the joint centre to sensor 1 and 2, each in its sensor's frame:
-/// a_i = a_0 + K(w_i, dw_i) r_i, where a_0 is what both segments share, so that |a_1 - K_1 r1| = |a_2 - K_2 r2|.
+/// How it is used: as hinge.h.
+///
+///     static jcal_center_t center;
+///     const jcal_center_config_t config = jcal_center_config_default();
+///     if (jcal_center_init(&center, &config) != JCAL_OK) { ... }
+///     (void)jcal_center_update(&center, &pair);
+///     jcal_center_result_t result;
+///     (void)jcal_center_get(&center, &result);
+///
+/// Unknowns are r1 and r2, from the joint to sensor 1 and 2: a_i = a_0 + K(w_i, dw_i) r_i, where a_0 is what both segments share,
+/// so that |a_1 - K_1 r1| = |a_2 - K_2 r2|. A hinge has no centre along its axis: give its axes in the config. Units and frames:
+/// types.h. Settings: center_config.h. Cost: 3.9 KiB of state; docs/measurements/budget.md has the instructions.
+/// Sources: [OLS17], [SEE12]; docs/METHOD_CENTER.md derives what differs from them.
 #ifndef JCAL_CENTER_H
 #define JCAL_CENTER_H
 
@@ -17,9 +28,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-/// The bound of something of which nothing is known, m.
-#define JCAL_BOUND_UNKNOWN_M 10.0f
 
 /// What both engines say.
 typedef struct {

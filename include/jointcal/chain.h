@@ -2,9 +2,12 @@
 /// @file
 /// Hip and knee together: where three sensors, on pelvis, thigh and shank, sit relative to both joint centres. Stream engine.
 ///
-/// Primary source: [SAL15]. Each joint has a stream engine of center.h. What ties them together comes on top: both see the same
-/// accelerometer on the thigh, hip and knee are a fixed distance apart, which may be known, and (15b) of [SAL15] puts the thigh into
-/// the plane of the flexion axes. docs/METHOD_CENTER.md says what each of these buys.
+/// How it is used: as center.h, with triples of readings and jcal_chain_push, then jcal_chain_step.
+///
+/// Each joint has a stream engine of center.h. What ties them together comes on top: both see the same accelerometer on the thigh,
+/// hip and knee are a fixed distance apart, which may be known, and (15b) of [SAL15] puts the thigh into the plane of the flexion
+/// axes. Units and frames: types.h. Settings: chain_config.h. Cost: 8 KiB of state; docs/measurements/budget.md has the instructions.
+/// Source: [SAL15]; docs/METHOD_CENTER.md says what each tie buys.
 #ifndef JCAL_CHAIN_H
 #define JCAL_CHAIN_H
 

@@ -1,8 +1,21 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Hinge joint: both joint axes from gyroscopes and accelerometers. Stream engine, and what both engines share.
+/// Hinge: the joint axis as both sensors see it, from rates and specific forces in any motion. Stream engine, and what both engines
+/// say.
 ///
-/// Primary source: [OLS20]. Unknowns are j1 and j2, the unit joint axis in sensor frames 1 and 2.
+/// How it is used:
+///
+///     static jcal_hinge_t hinge;
+///     const jcal_hinge_config_t config = jcal_hinge_config_default();
+///     if (jcal_hinge_init(&hinge, &config) != JCAL_OK) { ... }
+///     (void)jcal_hinge_update(&hinge, &pair);        for each pair of readings
+///     jcal_hinge_result_t result;
+///     (void)jcal_hinge_get(&hinge, &result);         whenever you like
+///     if (result.head.status == JCAL_READY) { ... result.axis1, result.axis2 ... }
+///
+/// Or jcal_hinge_push in an interrupt and jcal_hinge_step outside. Units and frames: types.h. Settings: hinge_config.h.
+/// Cost: 2 KiB of state; docs/measurements/budget.md has the instructions of push and step.
+/// Source: [OLS20]; docs/METHOD.md derives what differs from it.
 #ifndef JCAL_HINGE_H
 #define JCAL_HINGE_H
 
@@ -16,16 +29,15 @@
 extern "C" {
 #endif
 
-/// The bound of something of which nothing is known: a right angle, the largest angle between two lines, rad.
-#define JCAL_BOUND_UNKNOWN_RAD 1.57079633f
-
 /// What both hinge engines say.
 typedef struct {
     jcal_head_t head;
     bool has_axes;        ///< False until there is any estimate; then axis1, axis2 are zero.
     bool paper_accepted;  ///< Window engine: what Algorithm 4 of [OLS20] says. Stream engine: false.
-    jcal_vec3_t axis1;    ///< Unit joint axis in sensor frame 1; its largest component is positive.
-    jcal_vec3_t axis2;    ///< Unit joint axis in sensor frame 2, sign following the pairing.
+    /// Unit joint axis in sensor frame 1. Its sign follows axis1_toward of the config, or makes the largest component positive; once
+    /// `ready` it stays as it is until `moved`.
+    jcal_vec3_t axis1;
+    jcal_vec3_t axis2;  ///< Unit joint axis in sensor frame 2, sign following the pairing.
     /// 95 % bound of the angle between axis1 and the truth; JCAL_BOUND_UNKNOWN_RAD if unknown.
     float uncertainty1_rad;
     float uncertainty2_rad;  ///< The same for axis2.

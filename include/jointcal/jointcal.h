@@ -1,6 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// jointcal: finds out by itself how IMUs sit on the two sides of a joint.
+///
+/// Start with types.h (units and frames) and hinge.h (how an estimator is used); the others have the same verbs.
+///
+/// | you want | header | settings |
+/// |---|---|---|
+/// | the axis of a hinge | hinge.h; hinge_window.h is the published algorithm | hinge_config.h |
+/// | two axes and the heading offset | two_dof.h; two_dof_window.h is the published algorithm | two_dof_config.h |
+/// | the joint's centre | center.h; center_window.h is the published algorithm | center_config.h, kinematics.h |
+/// | hip and knee together | chain.h | chain_config.h |
+/// | joint angles from orientations | joint_angles.h, joint_heading.h | |
+/// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
+///
+/// What stands in private/ is state whose size must be known at compile time; nothing there is for the user to touch.
 #ifndef JCAL_JOINTCAL_H
 #define JCAL_JOINTCAL_H
 

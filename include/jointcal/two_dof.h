@@ -1,9 +1,20 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Joint with two degrees of freedom: both axes and the heading offset from orientations. Stream engine, and what both engines share.
+/// Joint with two axes, like elbow and forearm: both axes and the heading offset from orientations. Stream engine, and what both
+/// engines say.
 ///
-/// Primary source: [LAI22]. Unknowns are j1, the unit axis fixed in segment 1 (sensor frame 1), j2, that fixed in segment 2 (sensor
-/// frame 2), and the heading offset delta: v_E1 = Rz(delta) v_E2.
+/// How it is used: as hinge.h, with pairs of orientations in place of readings.
+///
+///     static jcal_two_dof_t elbow;
+///     const jcal_two_dof_config_t config = jcal_two_dof_config_default();
+///     if (jcal_two_dof_init(&elbow, &config) != JCAL_OK) { ... }
+///     (void)jcal_two_dof_update(&elbow, &orientations);
+///     jcal_two_dof_result_t result;
+///     (void)jcal_two_dof_get(&elbow, &result);
+///
+/// Unknowns are j1, fixed in segment 1, j2, fixed in segment 2, and the heading offset delta: v_E1 = Rz(delta) v_E2. Units and
+/// frames: types.h. Settings: two_dof_config.h. Cost: 3.9 KiB of state; docs/measurements/budget.md has the instructions.
+/// Source: [LAI22]; docs/METHOD_TWO_DOF.md derives what differs from it.
 #ifndef JCAL_TWO_DOF_H
 #define JCAL_TWO_DOF_H
 
@@ -20,9 +31,11 @@ extern "C" {
 /// What both engines say.
 typedef struct {
     jcal_head_t head;
-    bool has_axes;             ///< False until there is any estimate; then axes, heading and carrying angle are zero.
-    jcal_vec3_t axis1;         ///< Unit axis j1 in sensor frame 1; its largest component is positive.
-    jcal_vec3_t axis2;         ///< Unit axis j2 in sensor frame 2; its largest component is positive.
+    bool has_axes;  ///< False until there is any estimate; then axes, heading and carrying angle are zero.
+    /// Unit axis j1 in sensor frame 1. It points towards axis1_toward of the config, or else its largest component is positive; once
+    /// the status is `ready` it stays as it is then, until `moved`.
+    jcal_vec3_t axis1;
+    jcal_vec3_t axis2;         ///< Unit axis j2 in sensor frame 2, its sign likewise and separately.
     float heading_offset_rad;  ///< delta, in (-pi, pi]: turns earth frame 2 to earth frame 1 about z.
     float carrying_angle_rad;  ///< beta0: j1 . j2 = sin(beta0) in a common frame.
     /// 95 % bound of the angle between axis1 and the truth; a right angle if unknown, as while other axes explain the data as well.

@@ -1,6 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Plain data types. SI units and radians everywhere.
+/// Plain data types, units and frames: the words that every other header uses.
+///
+///       proximal segment (a thigh, say)             distal segment (a shank)
+///     ------------[ sensor 1 ]------------( o )------------[ sensor 2 ]------------
+///                       <------- r1 -------  ------- r2 ------->
+///
+/// - Sensor 1 sits on the proximal segment, sensor 2 on the distal one; each anywhere, turned in any way.
+/// - o is the joint. r1 and r2 lead from it to the sensors, in m; r1 is given in sensor frame 1, r2 in sensor frame 2.
+/// - j1 and j2 are the joint's axes, unit vectors: j1 in sensor frame 1, j2 in sensor frame 2. A hinge has one axis, seen by both.
+/// - Rates are in rad/s, specific forces in m/s^2: a sensor at rest reads +9.81 on the axis that points up.
+/// - Time is in microseconds from any origin. Angles are in rad, lengths in m.
+/// - Earth frames have z up. Orientations without a magnetometer have a heading of their own each: E1 and E2. The heading offset
+///   turns E2 to E1 about z.
 #ifndef JCAL_TYPES_H
 #define JCAL_TYPES_H
 

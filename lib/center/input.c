@@ -5,7 +5,7 @@
 
 #include "math/clear.h"
 #include "math/scalar.h"
-#include "sample/inbox.h"
+#include "sample/ring.h"
 
 #include <stddef.h>
 
@@ -25,7 +25,8 @@ static bool is_unit(jcal_quat_t q)
 jcal_status_t jcal_center_input_push(jcal_center_input_t *self, const jcal_center_config_t *cfg,
                                      const jcal_pair_t *pair, const jcal_attitudes_t *attitudes)
 {
-    if (jcal_inbox_full(&self->inbox)) {
+    uint32_t slot;
+    if (!jcal_ring_room(&self->inbox.ring, &slot)) {
         return JCAL_ERR_FULL;
     }
     if ((attitudes != NULL) && (!is_unit(attitudes->q1) || !is_unit(attitudes->q2))) {
@@ -37,22 +38,24 @@ jcal_status_t jcal_center_input_push(jcal_center_input_t *self, const jcal_cente
         return JCAL_REJECTED;
     }
     if (attitudes != NULL) {
-        volatile jcal_attitudes_t *const slot = &self->attitudes[self->inbox.written % JCAL_INBOX_CAPACITY];
-        *slot = *attitudes; /* before the inbox says that there is something */
+        self->attitudes[slot] = *attitudes;
     }
-    jcal_inbox_put(&self->inbox, pair);
+    self->inbox.slots[slot] = *pair;
+    jcal_ring_publish(&self->inbox.ring);
     return JCAL_OK;
 }
 
 jcal_center_input_event_t jcal_center_input_take(jcal_center_input_t *self, const jcal_center_config_t *cfg,
                                                  jcal_kinematic_t *sample)
 {
-    const jcal_attitudes_t attitudes = self->attitudes[self->inbox.taken % JCAL_INBOX_CAPACITY];
     const bool is_oriented = cfg->method == JCAL_CENTER_LS;
-    jcal_pair_t pair;
-    if (!jcal_inbox_take(&self->inbox, &pair)) {
+    uint32_t slot;
+    if (!jcal_ring_peek(&self->inbox.ring, &slot)) {
         return JCAL_CENTER_NONE;
     }
+    const jcal_pair_t pair = self->inbox.slots[slot];
+    const jcal_attitudes_t attitudes = self->attitudes[slot];
+    jcal_ring_release(&self->inbox.ring);
     if (!jcal_kinematics_put(&self->kinematics, &cfg->kinematics, &pair, is_oriented ? &attitudes : NULL, sample)) {
         return JCAL_CENTER_WAITS;
     }

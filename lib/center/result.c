@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// What the engines of the joint centre tell their user.
-#include "center/judge.h"
+/// What the engines of the joint centre tell their user. See center/result.h.
+#include "center/result.h"
+
 #include "jointcal/vec3.h"
 #include "math/angle.h"
 #include "math/scalar.h"
@@ -64,6 +65,7 @@ void jcal_center_report(const jcal_center_config_t *cfg, const jcal_center_work_
         tell_point(cfg, &work->sums.point, out);
     }
     out->head.samples = input->gate.samples;
+    out->head.overrun = input->inbox.ring.overrun;
     for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
         out->head.rejected_by[i] = input->gate.rejected_by[i];
         out->head.rejected += input->gate.rejected_by[i];

@@ -5,10 +5,12 @@
 
 #include "center/input.h"
 #include "center/judge.h"
+#include "center/result.h"
 #include "center/sums.h"
 #include "joint/watch.h"
 #include "jointcal/vec3.h"
 #include "math/clear.h"
+#include "sample/ring.h"
 
 #include <math.h>
 
@@ -30,21 +32,6 @@ static jcal_kinematic_t *samples_of(const jcal_center_window_t *self)
 static bool storage_fits(const jcal_center_window_config_t *cfg, const void *storage, size_t bytes)
 {
     return (((uintptr_t)storage % sizeof(uint64_t)) == 0u) && (bytes >= jcal_center_window_storage_bytes(cfg));
-}
-
-jcal_center_window_config_t jcal_center_window_config_default(void)
-{
-    const jcal_center_window_config_t config = {.center = jcal_center_config_default(), .n_max = 500u};
-    return config;
-}
-
-const char *jcal_center_window_config_check(const jcal_center_window_config_t *config)
-{
-    const char *const wrong = jcal_center_config_check(&config->center);
-    if (wrong != NULL) {
-        return wrong;
-    }
-    return ((config->n_max < 50u) || (config->n_max > 20000u)) ? "n_max" : NULL;
 }
 
 size_t jcal_center_window_storage_bytes(const jcal_center_window_config_t *config)
@@ -210,7 +197,7 @@ static void iterate(jcal_center_window_t *self, float motion_s)
 
 jcal_status_t jcal_center_window_step(jcal_center_window_t *self)
 {
-    if (self == NULL) {
+    if ((self == NULL) || (self->storage == NULL)) {
         return JCAL_ERR_ARG;
     }
     jcal_kinematic_t sample;
@@ -234,6 +221,12 @@ jcal_status_t jcal_center_window_step(jcal_center_window_t *self)
 
 jcal_status_t jcal_center_window_update(jcal_center_window_t *self, const jcal_pair_t *pair)
 {
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    for (uint32_t left = jcal_ring_waiting(&self->input.inbox.ring); left > 0u; --left) {
+        (void)jcal_center_window_step(self); /* pushed without a step */
+    }
     const jcal_status_t status = jcal_center_window_push(self, pair);
     if (status >= JCAL_OK) {
         (void)jcal_center_window_step(self);

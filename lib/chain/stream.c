@@ -273,7 +273,7 @@ jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out)
     const joint_news_t knee = tell_apart(&self->knee, JCAL_CHAIN_KNEE_TO_THIGH, out);
     out->uncertainty_segment_m = JCAL_BOUND_UNKNOWN_M;
     out->has_places = hip.has_center && knee.has_center;
-    const bool tied = out->has_places && jcal_chain_collect(self, &state);
+    const bool tied = out->has_places && jcal_chain_collect(&self->hip, &self->knee, &state);
     const bool fits = !tied || tell_tied(self, &state, out);
     shift_knee(&self->cfg, out);
     const jcal_vec3_t segment =
@@ -287,6 +287,7 @@ jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out)
     tell_status(self, &hip, &knee, fits, out);
     out->head.t_us = (hip.t_us > knee.t_us) ? hip.t_us : knee.t_us;
     out->head.samples = self->samples;
+    out->head.overrun = self->hip.input.inbox.ring.overrun + self->knee.input.inbox.ring.overrun;
     for (size_t i = 0u; i < (size_t)JCAL_REJECT_COUNT; ++i) {
         out->head.rejected_by[i] = self->rejected_by[i];
         out->head.rejected += self->rejected_by[i];

@@ -1,31 +1,28 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Stream engine of the 2-DoF joint: config, orientations into rates, samples into sums, and the schedule of the work.
+/// Stream engine of the 2-DoF joint: orientations into rates, samples into sums, and the schedule of the work.
 #include "jointcal/two_dof.h"
 
 #include "joint/watch.h"
-#include "jointcal/quat.h"
 #include "math/angle.h"
 #include "math/clear.h"
 #include "math/scalar.h"
-#include "sample/rate.h"
+#include "sample/ring.h"
+#include "two_dof/judge.h"
+#include "two_dof/kept.h"
+#include "two_dof/memory.h"
 #include "two_dof/model.h"
+#include "two_dof/prior.h"
 #include "two_dof/residual.h"
 #include "two_dof/search.h"
-#include "two_dof/stream.h"
 #include "two_dof/verdict.h"
 
 #include <float.h>
 #include <stddef.h>
 
-#define MICROSECONDS 1e-6f
-
 /// Orientations are kept this far apart, us: rates come from every other one, so this sets their low-pass, a mean over 80 ms (the
 /// first zero of its response lies at 12.5 Hz, -3 dB at 5.5 Hz) that has no delay against the orientation in the middle.
 #define KEEP_US 38000u
-/// Two kept orientations further apart than this have no rate between them, s.
-#define APART_MAX_S 0.12f
-
 /// What may pass for usual by the watch, times the variance in the config: errors of the inclination come and go within seconds.
 #define WATCH_SHARE 5.0f
 
@@ -35,62 +32,30 @@
 #define ITEMS 4u
 #define ITEMS_READY 3u
 
-typedef char jcal_two_dof_fits_its_budget[(sizeof(jcal_two_dof_t) <= 4096u) ? 1 : -1];
+/// A calibration that was ready and has not fitted for so many judgements is void.
+#define MISFITS_MAX 8u
+/// After a slip an orientation filter takes seconds to settle. What has not fitted for so many judgements then is given up, too.
+#define MISFITS_RECOVERING 16u
 
-jcal_two_dof_config_t jcal_two_dof_config_default(void)
-{
-    const jcal_two_dof_config_t config = {
-        .gate = jcal_gate_config_default(),
-        .constraint = JCAL_CONSTRAINT_COMBINED,
-        .max_bound_rad = 3.0f * JCAL_RAD_PER_DEG,
-        .mismatch_rad = 0.75f * JCAL_RAD_PER_DEG,
-        .rate_noise_rad_s = 0.02f,
-        .rate_error = 0.02f,
-        .angle_noise_rad = 0.013f,
-        .heading_drift_rad_s = 3.0f * JCAL_RAD_PER_DEG / 60.0f,
-        .memory_s = 5.0f,
-    };
-    return config;
-}
+/// Turns of the cycle of estimate, judgement and search; the last of them are the probe's.
+enum { TURN_TRACK = 0, TURN_JUDGE = 1, TURN_FADE = 2, TURN_DRIFT = 3, TURN_RIVAL = 4, TURN_PROBE = 5, TURNS = 9 };
 
-typedef struct {
-    const char *name;
-    float value, low, high;
-} field_t;
+/// Of the inbox: with its four slots by default that makes 4 KiB.
+#define SLOT_BYTES (sizeof(jcal_orientation_pair_t) + 1u)
+typedef char jcal_two_dof_fits_its_budget
+    [((sizeof(jcal_two_dof_t) - (JCAL_INBOX_CAPACITY * SLOT_BYTES)) <= (4096u - (4u * SLOT_BYTES))) ? 1 : -1];
 
-const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config)
-{
-    const field_t fields[] = {
-        {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
-        {"mismatch_rad", config->mismatch_rad, 0.0f, 0.1f},
-        {"rate_noise_rad_s", config->rate_noise_rad_s, 1e-3f, 1.0f},
-        {"rate_error", config->rate_error, 0.0f, 0.5f},
-        {"angle_noise_rad", config->angle_noise_rad, 1e-3f, 0.5f},
-        {"heading_drift_rad_s", config->heading_drift_rad_s, 0.0f, 0.05f},
-        {"memory_s", config->memory_s, 2.0f, 600.0f},
-    };
-    for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
-        if (!jcal_within(fields[i].value, fields[i].low, fields[i].high)) {
-            return fields[i].name;
-        }
-    }
-    const int constraint = (int)config->constraint;
-    if ((constraint < (int)JCAL_CONSTRAINT_COMBINED) || (constraint > (int)JCAL_CONSTRAINT_ORIENTATION)) {
-        return "constraint";
-    }
-    return jcal_gate_config_check(&config->gate);
-}
-
-void jcal_two_dof_begin_anew(jcal_two_dof_t *self, jcal_calibration_t status)
+/// Forgets all that was learnt of the joint and begins again with the given status; samples, counters and config stay.
+static void begin_anew(jcal_two_dof_t *self, jcal_calibration_t status)
 {
     jcal_clear(&self->moments, sizeof self->moments);
     jcal_clear(&self->prior, sizeof self->prior);
-    jcal_clear(&self->best, sizeof self->best);
     jcal_clear(&self->search, sizeof self->search);
     self->age_s = 0.0f;
     self->moving_s = 0.0f;
-    self->since_forgot_s = 0.0f;
-    self->has_best = false;
+    self->memory.since_s = 0.0f;
+    self->turn = 0u;
+    self->misfits = 0u;
     self->recovers = self->recovers || (status == JCAL_MOVED);
     jcal_clear(&self->watch, sizeof self->watch);
     jcal_two_dof_verdict_begin(&self->verdict, status);
@@ -109,7 +74,7 @@ jcal_status_t jcal_two_dof_init(jcal_two_dof_t *self, const jcal_two_dof_config_
     self->cfg = cfg;
     self->share = ITEMS;
     self->item = ITEMS;
-    jcal_two_dof_begin_anew(self, JCAL_COLLECTING);
+    begin_anew(self, JCAL_COLLECTING);
     return JCAL_OK;
 }
 
@@ -118,56 +83,18 @@ jcal_status_t jcal_two_dof_reset(jcal_two_dof_t *self)
     return (self == NULL) ? JCAL_ERR_ARG : jcal_two_dof_init(self, &self->cfg);
 }
 
+/// False for null and for what init has never prepared: all zero, say.
+static bool is_prepared(const jcal_two_dof_t *self)
+{
+    return (self != NULL) && (self->share > 0u);
+}
+
 jcal_status_t jcal_two_dof_push(jcal_two_dof_t *self, const jcal_orientation_pair_t *pair)
 {
-    if ((self == NULL) || (pair == NULL)) {
+    if (!is_prepared(self) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
-    const uint32_t at = self->written;
-    if (at != self->taken) {
-        return JCAL_ERR_FULL; /* the three before it are still needed */
-    }
-    if (jcal_orientation_gate_check(&self->gate, &self->cfg.gate, pair) != JCAL_REJECT_NONE) {
-        return JCAL_REJECTED;
-    }
-    self->pushes = (uint8_t)((self->pushes < UINT8_MAX) ? (self->pushes + 1u) : UINT8_MAX);
-    if ((at > 0u) && ((pair->t_us - self->ring[(at - 1u) % JCAL_TWO_DOF_RING].t_us) < KEEP_US)) {
-        return JCAL_OK;
-    }
-    jcal_orientation_pair_t *const slot = &self->ring[at % JCAL_TWO_DOF_RING];
-    slot->t_us = pair->t_us;
-    slot->q1 = jcal_quat_normalise(pair->q1);
-    slot->q2 = jcal_quat_normalise(pair->q2);
-    self->written = at + 1u;
-    return JCAL_OK;
-}
-
-/// The kept orientation `back` before the last one taken.
-static const jcal_orientation_pair_t *kept(const jcal_two_dof_t *self, uint32_t back)
-{
-    return &self->ring[(self->taken - 1u - back) % JCAL_TWO_DOF_RING];
-}
-
-/// The sample in the middle of the last three kept; false if there is none. `dt_s` is the time it stands for.
-static bool middle(const jcal_two_dof_t *self, jcal_two_dof_sample_t *sample, float *dt_s)
-{
-    if (self->taken < 3u) {
-        return false;
-    }
-    const jcal_orientation_pair_t *const before = kept(self, 2u);
-    const jcal_orientation_pair_t *const at = kept(self, 1u);
-    const jcal_orientation_pair_t *const after = kept(self, 0u);
-    const float to_s = (float)(at->t_us - before->t_us) * MICROSECONDS;
-    const float on_s = (float)(after->t_us - at->t_us) * MICROSECONDS;
-    if ((to_s > APART_MAX_S) || (on_s > APART_MAX_S)) {
-        return false;
-    }
-    *dt_s = 0.5f * (to_s + on_s);
-    sample->q1 = at->q1;
-    sample->q2 = at->q2;
-    sample->w1 = jcal_rate_between(before->q1, after->q1, to_s + on_s);
-    sample->w2 = jcal_rate_between(before->q2, after->q2, to_s + on_s);
-    return true;
+    return jcal_two_dof_keep(&self->kept, &self->gate, &self->cfg.gate, pair, KEEP_US);
 }
 
 static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *sample, float rate2)
@@ -178,9 +105,9 @@ static void add_rotation(jcal_two_dof_t *self, const jcal_two_dof_sample_t *samp
         (cfg->rate_noise_rad_s * cfg->rate_noise_rad_s) + (cfg->rate_error * cfg->rate_error * rate2);
     float features[JCAL_TWO_DOF_FEATURES];
     jcal_two_dof_rotation_features(sample, features);
-    if (self->has_best && (cfg->constraint != JCAL_CONSTRAINT_ORIENTATION)) {
+    if (self->search.has_best && (cfg->constraint != JCAL_CONSTRAINT_ORIENTATION)) {
         const float sine = self->verdict.sine;
-        const float residual = jcal_two_dof_value(features, &self->best.point);
+        const float residual = jcal_two_dof_value(features, &self->search.best.point);
         jcal_watch_add(&self->watch, ITEM_ROTATION,
                        residual * residual / (WATCH_SHARE * variance * (1.0f - (sine * sine))), time_s);
     }
@@ -196,8 +123,8 @@ static void add_orientation(jcal_two_dof_t *self, const jcal_orientation_pair_t 
     const float weight = time_s / (JCAL_TWO_DOF_ANGLE_TIME_S * variance);
     float features[JCAL_TWO_DOF_FEATURES];
     jcal_two_dof_orientation_features(pair->q1, pair->q2, features);
-    if (self->has_best && (cfg->constraint != JCAL_CONSTRAINT_ROTATION)) {
-        const float residual = jcal_two_dof_value(features, &self->best.point) - self->verdict.sine;
+    if (self->search.has_best && (cfg->constraint != JCAL_CONSTRAINT_ROTATION)) {
+        const float residual = jcal_two_dof_value(features, &self->search.best.point) - self->verdict.sine;
         jcal_watch_add(&self->watch, ITEM_ORIENTATION, residual * residual / (WATCH_SHARE * variance), time_s);
     }
     jcal_two_dof_add(self->moments.orientation, features, weight);
@@ -210,16 +137,17 @@ static void add_orientation(jcal_two_dof_t *self, const jcal_orientation_pair_t 
 /// Rotation-based moments of the sample last taken.
 static void sum_rotation(jcal_two_dof_t *self)
 {
-    jcal_two_dof_sample_t sample;
-    float dt_s;
+    jcal_two_dof_middle_t middle;
     self->time_s = 0.0f;
-    if (!middle(self, &sample, &dt_s)) {
+    if (!jcal_two_dof_middle(&self->kept, &middle)) {
         return;
     }
+    const jcal_two_dof_sample_t sample = {.q1 = middle.at->q1, .q2 = middle.at->q2, .w1 = middle.w1, .w2 = middle.w2};
+    const float dt_s = middle.dt_s;
     const float rate2 = jcal_vec3_dot(sample.w1, sample.w1) + jcal_vec3_dot(sample.w2, sample.w2);
     self->time_s = dt_s * jcal_watch_motion(rate2);
     self->age_s = (self->age_s + dt_s) * (self->moving_s / (self->moving_s + self->time_s + FLT_MIN));
-    self->since_forgot_s += dt_s;
+    self->memory.since_s += dt_s;
     add_rotation(self, &sample, rate2);
 }
 
@@ -227,13 +155,133 @@ static void sum_rotation(jcal_two_dof_t *self)
 static void sum_orientation(jcal_two_dof_t *self)
 {
     if (self->time_s > 0.0f) {
-        add_orientation(self, kept(self, 1u));
+        add_orientation(self, &self->kept.last[1]);
         self->moving_s += self->time_s;
-        self->t_us = kept(self, 1u)->t_us;
+        self->t_us = self->kept.last[1].t_us;
     }
     if (jcal_watch_alarm(&self->watch)) {
-        jcal_two_dof_begin_anew(self, JCAL_MOVED);
+        begin_anew(self, JCAL_MOVED);
     }
+}
+
+/// What the data show now, and how the search and the judgement are to see it.
+static jcal_two_dof_landscape_t landscape_of(const jcal_two_dof_t *self)
+{
+    const jcal_two_dof_landscape_t landscape = {
+        .moments = &self->moments,
+        .prior = &self->prior,
+        .pose = &self->kept.last[0],
+        .constraint = self->cfg.constraint,
+        .moving_s = self->moving_s,
+        .excess = self->verdict.excess,
+    };
+    return landscape;
+}
+
+/// Judges the estimate. A calibration that was ready and no longer fits is given up, and so is one after a slip that never does.
+static void judge(jcal_two_dof_t *self, const jcal_two_dof_landscape_t *landscape)
+{
+    const jcal_two_dof_case_t of = {&self->search, landscape, self->age_s,
+                                    jcal_orientation_gate_complaint(&self->gate)};
+    jcal_two_dof_judge(&self->verdict, &self->cfg, &of);
+    const bool was_ready = self->watch.on;
+    const bool misfit = self->verdict.reason == (uint8_t)JCAL_REASON_DOES_NOT_FIT;
+    self->misfits = (uint8_t)((misfit && (was_ready || self->recovers)) ? (self->misfits + 1u) : 0u);
+    if (self->misfits >= (was_ready ? MISFITS_MAX : MISFITS_RECOVERING)) {
+        begin_anew(self, was_ready ? JCAL_MOVED : (jcal_calibration_t)self->verdict.status);
+    } else if (self->verdict.status == (uint8_t)JCAL_READY) {
+        self->recovers = false;
+        jcal_watch_start(&self->watch);
+    } else {
+        /* not ready yet */
+    }
+}
+
+/// Fades all sums; while the status is ready, what they said of the axes goes to the prior.
+static void fade(jcal_two_dof_t *self)
+{
+    if (self->verdict.status == (uint8_t)JCAL_READY) {
+        jcal_two_dof_prior_take(&self->prior, &self->search.best.point, &self->search.lin,
+                                1.0f - JCAL_TWO_DOF_FADE_KEEP);
+    }
+    jcal_two_dof_fade(&self->moments, JCAL_TWO_DOF_FADE_KEEP);
+    self->moving_s *= JCAL_TWO_DOF_FADE_KEEP;
+    self->search.cost *= JCAL_TWO_DOF_FADE_KEEP;
+    self->search.rival_cost *= JCAL_TWO_DOF_FADE_KEEP;
+}
+
+/// Refers the sums to where the heading offset is by now.
+static void follow_drift(jcal_two_dof_t *self)
+{
+    jcal_plane_t *const heading = &self->search.best.point.heading;
+    jcal_plane_t turn;
+    if ((self->verdict.status == (uint8_t)JCAL_READY) &&
+        jcal_two_dof_follow_drift(&self->memory, &self->cfg, *heading, &turn)) {
+        jcal_two_dof_turn(&self->moments, turn);
+        *heading = jcal_plane_direction(jcal_plane_times(*heading, turn));
+    }
+    self->memory.since_s = 0.0f;
+}
+
+/// The search has found another estimate. If the one before it was ready, the joint is another one now.
+static void change_estimate(jcal_two_dof_t *self)
+{
+    if (self->watch.on) {
+        begin_anew(self, JCAL_MOVED);
+        return;
+    }
+    self->memory.heading_then = (jcal_plane_t){0.0f, 0.0f};
+    self->memory.drift_rad_s = 0.0f;
+    self->verdict.agreed = 0u;
+    if (self->verdict.status != (uint8_t)JCAL_MOVED) {
+        self->verdict.status = (uint8_t)JCAL_COLLECTING;
+    }
+    self->verdict.reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+}
+
+/// A slice of the search. Returns whether its turn is over.
+static bool search(jcal_two_dof_t *self, const jcal_two_dof_landscape_t *landscape)
+{
+    const jcal_two_dof_found_t found = jcal_two_dof_probe(&self->search, landscape);
+    if (found == JCAL_TWO_DOF_ESTIMATE) {
+        change_estimate(self);
+    }
+    return found != JCAL_TWO_DOF_HALF_DONE;
+}
+
+/// One slice of work on the estimate: half a step, a judgement, forgetting, or the search for others.
+static void work(jcal_two_dof_t *self)
+{
+    if (!(self->moving_s > 0.0f)) {
+        return;
+    }
+    if (!self->search.has_best && (self->turn < TURN_PROBE)) {
+        self->turn = TURN_PROBE;
+    }
+    const jcal_two_dof_landscape_t landscape = landscape_of(self);
+    unsigned next = (self->turn + 1u) % TURNS;
+    switch (self->turn) {
+    case TURN_TRACK:
+        next = (jcal_two_dof_track(&self->search, &landscape) == JCAL_TWO_DOF_HALF_DONE) ? TURN_TRACK : TURN_JUDGE;
+        break;
+    case TURN_JUDGE:
+        judge(self, &landscape);
+        next = jcal_two_dof_fade_is_due(&self->memory, &self->cfg, &self->verdict) ? TURN_FADE : TURN_RIVAL;
+        break;
+    case TURN_FADE:
+        fade(self);
+        break;
+    case TURN_DRIFT:
+        follow_drift(self);
+        break;
+    case TURN_RIVAL:
+        jcal_two_dof_compare(&self->search, &landscape);
+        break;
+    default:
+        next = search(self, &landscape) ? next : self->turn;
+        break;
+    }
+    self->turn = (uint8_t)next;
 }
 
 /// Items of work for the sample last taken: slices of the search are fewer once the status is ready.
@@ -255,33 +303,32 @@ static void do_item(jcal_two_dof_t *self)
         sum_orientation(self);
         break;
     default:
-        jcal_two_dof_work(self);
+        work(self);
         break;
     }
     self->item = (uint8_t)(self->item + 1u);
 }
 
-/// Takes the waiting orientation. Moments of the one before it that are still to be summed are summed first.
-static void take(jcal_two_dof_t *self)
+/// Begins with an orientation that has just been taken, for which so many samples were pushed.
+static void begin_items(jcal_two_dof_t *self, unsigned pushes)
 {
-    while (self->item <= ITEM_ORIENTATION) {
-        do_item(self);
-    }
-    const unsigned pushes = (self->pushes > 0u) ? self->pushes : 1u;
     self->share = (uint8_t)((ITEMS + pushes - 1u) / pushes);
-    self->pushes = 0u;
-    self->taken = self->taken + 1u;
     self->item = 0u;
     self->odd = !self->odd;
 }
 
 jcal_status_t jcal_two_dof_step(jcal_two_dof_t *self)
 {
-    if (self == NULL) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
-    if (self->written != self->taken) {
-        take(self);
+    const bool waits = jcal_ring_waiting(&self->kept.ring) > 0u;
+    while (waits && (self->item <= ITEM_ORIENTATION)) {
+        do_item(self); /* moments of the one before that are still to be summed */
+    }
+    unsigned pushes;
+    if (waits && jcal_two_dof_take(&self->kept, &pushes)) {
+        begin_items(self, pushes);
     } else if (self->item >= items_of(self)) {
         return JCAL_IDLE;
     } else {
@@ -295,21 +342,15 @@ jcal_status_t jcal_two_dof_step(jcal_two_dof_t *self)
 
 jcal_status_t jcal_two_dof_update(jcal_two_dof_t *self, const jcal_orientation_pair_t *pair)
 {
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    for (uint32_t left = jcal_ring_waiting(&self->kept.ring); left > 0u; --left) {
+        (void)jcal_two_dof_step(self); /* pushed without a step */
+    }
     const jcal_status_t status = jcal_two_dof_push(self, pair);
     if (status >= JCAL_OK) {
         (void)jcal_two_dof_step(self);
     }
     return status;
-}
-
-jcal_status_t jcal_two_dof_get(const jcal_two_dof_t *self, jcal_two_dof_result_t *out)
-{
-    if ((self == NULL) || (out == NULL)) {
-        return JCAL_ERR_ARG;
-    }
-    jcal_two_dof_report(&self->verdict, &self->cfg, self->has_best ? &self->best.point : NULL, out);
-    jcal_two_dof_report_gate(&self->gate, out);
-    out->head.engine = JCAL_ENGINE_STREAM;
-    out->head.t_us = self->t_us;
-    return JCAL_OK;
 }

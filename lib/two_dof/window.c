@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Window engine of the 2-DoF joint: config, storage, and orientations into rows.
+/// Window engine of the 2-DoF joint: storage, and orientations into rows.
 #include "jointcal/two_dof_window.h"
 
-#include "jointcal/quat.h"
 #include "math/clear.h"
-#include "sample/rate.h"
+#include "sample/ring.h"
+#include "two_dof/kept.h"
+#include "two_dof/result.h"
 #include "two_dof/verdict.h"
 #include "two_dof/window_solve.h"
 
-#define MICROSECONDS 1e-6f
-
 /// Orientations are kept this far apart, us: 20 Hz, section 4.4 of [LAI22].
 #define KEEP_US 50000u
-/// Two kept orientations further apart than this have no rate between them, s.
-#define APART_MAX_S 0.12f
+
+/// False for null and for what init has never prepared: all zero, say.
+static bool is_prepared(const jcal_two_dof_window_t *self)
+{
+    return (self != NULL) && (self->storage != NULL) && (self->cfg.n_max > 0u);
+}
 
 static jcal_two_dof_row_t *rows_of(const jcal_two_dof_window_t *self)
 {
@@ -26,31 +29,9 @@ static bool storage_fits(const jcal_two_dof_window_config_t *cfg, const void *st
     return (((uintptr_t)storage % sizeof(uint64_t)) == 0u) && (bytes >= jcal_two_dof_window_storage_bytes(cfg));
 }
 
-jcal_two_dof_window_config_t jcal_two_dof_window_config_default(void)
-{
-    jcal_two_dof_window_config_t config = {
-        .two_dof = jcal_two_dof_config_default(),
-        .n_max = 200u,
-    };
-    config.two_dof.constraint = JCAL_CONSTRAINT_ROTATION;
-    return config;
-}
-
-const char *jcal_two_dof_window_config_check(const jcal_two_dof_window_config_t *config)
-{
-    const char *const wrong = jcal_two_dof_config_check(&config->two_dof);
-    if (wrong != NULL) {
-        return wrong;
-    }
-    if (config->two_dof.constraint == JCAL_CONSTRAINT_COMBINED) {
-        return "constraint";
-    }
-    return ((config->n_max < 20u) || (config->n_max > 10000u)) ? "n_max" : NULL;
-}
-
 size_t jcal_two_dof_window_storage_bytes(const jcal_two_dof_window_config_t *config)
 {
-    return JCAL_TWO_DOF_WINDOW_STORAGE_BYTES(config->n_max);
+    return (config == NULL) ? 0u : JCAL_TWO_DOF_WINDOW_STORAGE_BYTES(config->n_max);
 }
 
 /* Everything but config and storage as it was at the beginning. */
@@ -84,7 +65,7 @@ jcal_status_t jcal_two_dof_window_init(jcal_two_dof_window_t *self, const jcal_t
 
 jcal_status_t jcal_two_dof_window_attach(jcal_two_dof_window_t *self, void *storage, size_t storage_bytes)
 {
-    if ((self == NULL) || (storage == NULL)) {
+    if ((self == NULL) || (self->cfg.n_max == 0u) || (storage == NULL)) {
         return JCAL_ERR_ARG;
     }
     if (!storage_fits(&self->cfg, storage, storage_bytes)) {
@@ -96,7 +77,7 @@ jcal_status_t jcal_two_dof_window_attach(jcal_two_dof_window_t *self, void *stor
 
 jcal_status_t jcal_two_dof_window_reset(jcal_two_dof_window_t *self)
 {
-    if (self == NULL) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
     forget(self);
@@ -105,77 +86,51 @@ jcal_status_t jcal_two_dof_window_reset(jcal_two_dof_window_t *self)
 
 jcal_status_t jcal_two_dof_window_push(jcal_two_dof_window_t *self, const jcal_orientation_pair_t *pair)
 {
-    if ((self == NULL) || (pair == NULL)) {
+    if (!is_prepared(self) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
-    const uint32_t at = self->written;
-    if (at != self->taken) {
-        return JCAL_ERR_FULL; /* the three before it are still needed */
-    }
-    if (jcal_orientation_gate_check(&self->gate, &self->cfg.two_dof.gate, pair) != JCAL_REJECT_NONE) {
-        return JCAL_REJECTED;
-    }
-    if ((at > 0u) && ((pair->t_us - self->ring[(at - 1u) % JCAL_TWO_DOF_RING].t_us) < KEEP_US)) {
-        return JCAL_OK;
-    }
-    jcal_orientation_pair_t *const slot = &self->ring[at % JCAL_TWO_DOF_RING];
-    slot->t_us = pair->t_us;
-    slot->q1 = jcal_quat_normalise(pair->q1);
-    slot->q2 = jcal_quat_normalise(pair->q2);
-    self->written = at + 1u;
-    return JCAL_OK;
-}
-
-/// The row in the middle of the last three kept; false if there is none.
-static bool middle(const jcal_two_dof_window_t *self, jcal_two_dof_row_t *row)
-{
-    if (self->taken < 3u) {
-        return false;
-    }
-    const jcal_orientation_pair_t *const before = &self->ring[(self->taken - 3u) % JCAL_TWO_DOF_RING];
-    const jcal_orientation_pair_t *const at = &self->ring[(self->taken - 2u) % JCAL_TWO_DOF_RING];
-    const jcal_orientation_pair_t *const after = &self->ring[(self->taken - 1u) % JCAL_TWO_DOF_RING];
-    const float to_s = (float)(at->t_us - before->t_us) * MICROSECONDS;
-    const float on_s = (float)(after->t_us - at->t_us) * MICROSECONDS;
-    if ((to_s > APART_MAX_S) || (on_s > APART_MAX_S)) {
-        return false;
-    }
-    row->t_us = at->t_us;
-    row->q1 = at->q1;
-    row->q2 = at->q2;
-    row->w1 = jcal_rate_between(before->q1, after->q1, to_s + on_s);
-    row->w2 = jcal_rate_between(before->q2, after->q2, to_s + on_s);
-    row->dt_s = 0.5f * (to_s + on_s);
-    return true;
+    return jcal_two_dof_keep(&self->kept, &self->gate, &self->cfg.two_dof.gate, pair, KEEP_US);
 }
 
 jcal_status_t jcal_two_dof_window_step(jcal_two_dof_window_t *self)
 {
-    if (self == NULL) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
-    if (self->written == self->taken) {
+    unsigned pushes;
+    if (!jcal_two_dof_take(&self->kept, &pushes)) {
         return JCAL_IDLE;
     }
-    self->taken = self->taken + 1u;
-    jcal_two_dof_row_t *const newest = &rows_of(self)[self->next];
-    if (!middle(self, newest)) {
+    jcal_two_dof_middle_t middle;
+    if (!jcal_two_dof_middle(&self->kept, &middle)) {
         return JCAL_OK;
     }
+    jcal_two_dof_row_t *const newest = &rows_of(self)[self->next];
+    const jcal_two_dof_row_t row = {.t_us = middle.at->t_us,
+                                    .q1 = middle.at->q1,
+                                    .q2 = middle.at->q2,
+                                    .w1 = middle.w1,
+                                    .w2 = middle.w2,
+                                    .dt_s = middle.dt_s};
+    *newest = row;
     const uint16_t n_max = self->cfg.n_max;
     self->next = (uint16_t)((self->next + 1u) % n_max);
     self->count = (uint16_t)((self->count < n_max) ? (self->count + 1u) : n_max);
     if ((2u * (uint32_t)self->count) >= n_max) {
-        const jcal_two_dof_rows_t rows = {rows_of(self), self->count, &self->cfg.two_dof};
-        jcal_two_dof_window_work(self, &rows, newest);
+        const jcal_two_dof_rows_t rows = {rows_of(self), self->count, &self->cfg.two_dof,
+                                          jcal_orientation_gate_complaint(&self->gate)};
+        jcal_two_dof_window_work(&self->search, &self->verdict, &rows, newest);
     }
     return JCAL_OK;
 }
 
 jcal_status_t jcal_two_dof_window_update(jcal_two_dof_window_t *self, const jcal_orientation_pair_t *pair)
 {
-    if ((self != NULL) && (pair != NULL) && (self->written != self->taken)) {
-        (void)jcal_two_dof_window_step(self); /* a push without a step: make room */
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    for (uint32_t left = jcal_ring_waiting(&self->kept.ring); left > 0u; --left) {
+        (void)jcal_two_dof_window_step(self); /* pushed without a step */
     }
     const jcal_status_t status = jcal_two_dof_window_push(self, pair);
     if (status >= JCAL_OK) {
@@ -200,6 +155,7 @@ jcal_status_t jcal_two_dof_window_get(const jcal_two_dof_window_t *self, jcal_tw
     jcal_two_dof_report(&self->verdict, &self->cfg.two_dof, point, out);
     jcal_two_dof_report_gate(&self->gate, out);
     out->head.engine = JCAL_ENGINE_WINDOW;
+    out->head.overrun = self->kept.ring.overrun;
     out->head.t_us = (self->count > 0u) ? row_at(self, (size_t)self->count - 1u)->t_us : 0u;
     return JCAL_OK;
 }

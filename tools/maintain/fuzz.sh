@@ -9,7 +9,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source tools/maintain/packages.sh
-need_packages clang-14 libclang-rt-14-dev
+need_packages clang-14 libclang-rt-14-dev || exit 1
 
 # tools/maintain/fuzz.sh frames [COUNT]: feeds COUNT (default 10 million) random and damaged frames to the decoder and holds what it
 # accepts against the odds of the CRC; 10 million and more write docs/measurements/frames.md.

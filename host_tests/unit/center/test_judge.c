@@ -3,6 +3,7 @@
 /// Tests of center/judge.h: covariances, doubts and bounds against the same in double precision, and each reason for a verdict.
 #include "center/judge.h"
 
+#include "center/result.h"
 #include "jointcal/vec3.h"
 #include "math/sym.h"
 #include "unit/center/double.h"

@@ -171,7 +171,7 @@ static void the_thighs_accelerometer_has_one_bias(void)
     run(&m, 0.0, 30.0);
     assert_inside(&m);
     jcal_chain_state_t state;
-    TEST_ASSERT_TRUE(jcal_chain_collect(&engine, &state));
+    TEST_ASSERT_TRUE(jcal_chain_collect(&engine.hip, &engine.knee, &state));
     TEST_ASSERT_TRUE(jcal_chain_tie(&config, &state));
     for (size_t i = 0u; i < 3u; ++i) {
         TEST_ASSERT_FLOAT_WITHIN(0.02f, state.x[JCAL_CHAIN_AT_KNEE_BIAS + i], state.x[JCAL_CHAIN_AT_HIP_BIAS + i]);
@@ -184,7 +184,7 @@ static void what_is_tied_is_what_the_joints_state(void)
     const chain_motion_t m = chain_lively(2);
     jcal_chain_state_t state;
     run(&m, 0.0, 20.0);
-    TEST_ASSERT_TRUE(jcal_chain_collect(&engine, &state));
+    TEST_ASSERT_TRUE(jcal_chain_collect(&engine.hip, &engine.knee, &state));
     static const size_t first[4] = {JCAL_CHAIN_AT_HIP, JCAL_CHAIN_AT_HIP_THIGH, JCAL_CHAIN_AT_KNEE_THIGH,
                                     JCAL_CHAIN_AT_KNEE_SHANK};
     const float stated[4] = {engine.hip.work.verdict.bound1_m, engine.hip.work.verdict.bound2_m,
@@ -343,7 +343,7 @@ static void both_joints_become_one_gaussian_as_wide_as_their_bounds(void)
     const size_t knee_first[3] = {JCAL_CHAIN_AT_KNEE_THIGH, JCAL_CHAIN_AT_KNEE_SHANK, JCAL_CHAIN_AT_KNEE_BIAS};
     const size_t knee_from[3] = {0u, 3u, 6u}; /* the bias of its first one */
     make_up_both();
-    TEST_ASSERT_TRUE(jcal_chain_collect(&engine, &state));
+    TEST_ASSERT_TRUE(jcal_chain_collect(&engine.hip, &engine.knee, &state));
     assert_collected(&engine.hip, no_axes, hip_first, hip_from, &state);
     assert_collected(&engine.knee, axes, knee_first, knee_from, &state);
     for (size_t i = 0u; i < 9u; ++i) {
@@ -360,13 +360,13 @@ static void both_joints_become_one_gaussian_as_wide_as_their_bounds(void)
     assert_vector(knee->place.r1, &state.x[JCAL_CHAIN_AT_KNEE_THIGH]);
     assert_vector(knee->place.r2, &state.x[JCAL_CHAIN_AT_KNEE_SHANK]);
     engine.knee.work.as.inverse.is_factored = false;
-    TEST_ASSERT_FALSE(jcal_chain_collect(&engine, &state));
+    TEST_ASSERT_FALSE(jcal_chain_collect(&engine.hip, &engine.knee, &state));
     engine.knee.work.as.inverse.is_factored = true;
     engine.hip.work.as.inverse.is_factored = false;
-    TEST_ASSERT_FALSE(jcal_chain_collect(&engine, &state));
+    TEST_ASSERT_FALSE(jcal_chain_collect(&engine.hip, &engine.knee, &state));
     engine.hip.work.as.inverse.is_factored = true;
     engine.knee.work.verdict.bound2_m = 1.0f; /* none to build on */
-    TEST_ASSERT_FALSE(jcal_chain_collect(&engine, &state));
+    TEST_ASSERT_FALSE(jcal_chain_collect(&engine.hip, &engine.knee, &state));
 }
 
 static double covariance_at(const jcal_chain_state_t *state, size_t i, size_t j)
@@ -383,7 +383,7 @@ static void bounds_are_those_of_the_tied_gaussian(void)
     make_up_both();
     const jcal_vec3_t bias = engine.hip.work.sums.point.b2;
     engine.knee.work.sums.point.b1 = jcal_vec3(bias.x + 0.001f, bias.y, bias.z); /* nothing contradicts */
-    TEST_ASSERT_TRUE(jcal_chain_collect(&engine, &state));
+    TEST_ASSERT_TRUE(jcal_chain_collect(&engine.hip, &engine.knee, &state));
     TEST_ASSERT_TRUE(jcal_chain_tie(&config, &state));
     const jcal_chain_result_t r = result();
     for (int p = 0; p < JCAL_CHAIN_PLACES; ++p) {

@@ -22,7 +22,9 @@ typedef struct {
 } chain_options_t;
 
 static const struct argp_option OPTIONS[] = {
-    {"method", KEY_METHOD, "NAME", 0, "As for 'jointcal center': ss (default), sa, or ls, which needs orientations", 0},
+    {"method", KEY_METHOD, "NAME", 0,
+     "As for 'jointcal center': ss (default), sa; for research ls, which needs orientations and is hardly ever ready",
+     0},
     {"smoothing", KEY_SMOOTHING, "S", 0, "As for 'jointcal center', 0 to 2 (default 0.12)", 0},
     {"thigh-length", KEY_THIGH_LENGTH, "M", 0, "Distance of hip and knee in metres, if it is known: 0.05 to 1", 0},
     {"calibration", KEY_CALIBRATION, "FILE", 0,

@@ -5,6 +5,8 @@
 #define JCAL_PRIVATE_TWO_DOF_STREAM_H
 
 #include "jointcal/orientation.h"
+#include "jointcal/private/two_dof/kept.h"
+#include "jointcal/private/two_dof/memory.h"
 #include "jointcal/private/two_dof/moments.h"
 #include "jointcal/private/two_dof/prior.h"
 #include "jointcal/private/two_dof/search.h"
@@ -16,34 +18,26 @@
 extern "C" {
 #endif
 
-/// Orientations that wait for step, and the last ones before them. A power of two.
-#define JCAL_TWO_DOF_RING 4u
-
 /// The stream engine. Caller-owned, plain, copyable at any time between calls; all members are private.
 typedef struct {
     jcal_two_dof_config_t cfg;
     jcal_orientation_gate_t gate;
-    jcal_orientation_pair_t ring[JCAL_TWO_DOF_RING];
-    volatile uint32_t written;  ///< Orientations ever put in; written by push only.
-    volatile uint32_t taken;    ///< Orientations ever taken out; written by step only.
+    jcal_two_dof_kept_t kept;
     jcal_two_dof_moments_t moments;
     jcal_two_dof_prior_t prior;
-    jcal_two_dof_probe_t best;
     jcal_two_dof_search_t search;
     jcal_two_dof_verdict_t verdict;
-    uint64_t t_us;              ///< Time of the last sample in the sums.
-    jcal_plane_t heading_then;  ///< Heading offset when the sums were last faded ...
-    float drift_rad_s;          ///< ... and how fast it drifts.
-    float age_s;                ///< Mean age of what is in the sums.
-    float moving_s;             ///< Time in the sums, rest left out.
-    float since_forgot_s;       ///< Time since the sums were last faded.
-    uint8_t pushes;             ///< Samples since one was last kept.
-    uint8_t share;              ///< Items of work per call of step.
-    uint8_t item;               ///< Next item of work on the sample last taken.
-    float time_s;   ///< Weight of the sample that is being summed, s: its time, less if there is little motion.
-    bool odd;       ///< Every other sample, once the status is ready, gets a slice of the search.
-    bool recovers;  ///< A sensor has moved since the status was `ready`.
-    bool has_best;
+    jcal_two_dof_memory_t memory;
+    uint64_t t_us;       ///< Time of the last sample in the sums.
+    float age_s;         ///< Mean age of what is in the sums.
+    float moving_s;      ///< Time in the sums, rest left out.
+    uint8_t share;       ///< Items of work per call of step.
+    uint8_t item;        ///< Next item of work on the sample last taken.
+    uint8_t turn;        ///< Next turn of the cycle of estimate, judgement and search.
+    uint8_t misfits;     ///< Judgements in a row that found that the data do not fit.
+    float time_s;        ///< Weight of the sample that is being summed, s: its time, less if there is little motion.
+    bool odd;            ///< Every other sample, once the status is ready, gets a slice of the search.
+    bool recovers;       ///< A sensor has moved since the status was `ready`.
     jcal_watch_t watch;  ///< Of the rotation-based and the orientation-based residual.
 } jcal_two_dof_t;
 
