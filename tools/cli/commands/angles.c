@@ -76,42 +76,10 @@ static const struct argp_option OPTIONS[] = {
     {"bound-name", KEY_NAME + ANGLE_BOUND, "NAME", 0, "The same of the bound, with --accept best", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
 
-/* Numbers with commas between them; returns how many there are, 0 if it is no such list. */
-static size_t list_of_numbers(const char *text, float *values, size_t most)
-{
-    size_t count = 0;
-    char word[32];
-    for (;;) {
-        const size_t length = strcspn(text, ",");
-        if (length >= sizeof word || count == most) {
-            return 0;
-        }
-        memcpy(word, text, length);
-        word[length] = '\0';
-        if (number_to_float(word, &values[count]) != NUMBER_FINITE) {
-            return 0;
-        }
-        count++;
-        if (text[length] == '\0') {
-            return count;
-        }
-        text += length + 1;
-    }
-}
-
-static jcal_vec3_t direction(struct argp_state *state, const char *option, const char *text)
-{
-    float v[3] = {0.0f, 0.0f, 0.0f};
-    if (list_of_numbers(text, v, 3) != 3 || (v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f)) {
-        argp_error(state, "--%s: '%s' is not a direction X,Y,Z", option, text);
-    }
-    return (jcal_vec3_t){v[0], v[1], v[2]};
-}
-
 static jcal_joint_angles_t reference(struct argp_state *state, const char *text)
 {
     float v[2] = {0.0f, 0.0f};
-    if (list_of_numbers(text, v, 2) == 0 || fabsf(v[0]) > 180.0f || fabsf(v[1]) > 180.0f) {
+    if (option_numbers(text, v, 2) == 0 || fabsf(v[0]) > 180.0f || fabsf(v[1]) > 180.0f) {
         argp_error(state, "--reference: '%s' is not one or two angles from -180 to 180 degrees", text);
     }
     return (jcal_joint_angles_t){v[0] * RAD_PER_DEG, v[1] * RAD_PER_DEG, 0.0f};
@@ -220,11 +188,11 @@ static error_t parse(int key, char *argument, struct argp_state *state, void *se
         options->calibration = argument;
         return 0;
     case KEY_TOWARD1:
-        options->source.toward1 = direction(state, "axis1-toward", argument);
+        options->source.toward1 = option_direction(state, "axis1-toward", argument);
         options->source.has_toward1 = true;
         return 0;
     case KEY_TOWARD2:
-        options->source.toward2 = direction(state, "axis2-toward", argument);
+        options->source.toward2 = option_direction(state, "axis2-toward", argument);
         options->source.has_toward2 = true;
         return 0;
     default:

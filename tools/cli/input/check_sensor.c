@@ -59,7 +59,7 @@ static bool is_finite(const jcal_imu_t *imu)
 
 static bool equal(jcal_vec3_t a, jcal_vec3_t b)
 {
-    return memcmp(&a, &b, sizeof a) == 0;
+    return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
 static void count_held(check_sensor_t *sensor, const jcal_imu_t *imu)
