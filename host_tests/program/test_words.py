@@ -185,12 +185,12 @@ class Readings(Words):
         self.assert_refused([row[:10] + row[4:7] for row in ROWS], "the accelerations of sensor 2 are those of sensor 1")
 
     def test_readings_that_are_held(self):
-        for start, times, words in (("acc", 4, "the accelerometer comes 4 times (sensor 1 and 2)"), ("acc2", 2, "the accelerometer comes 2 times (sensor 2)"),
+        for start, times, words in (("acc", 4, "the accelerometer comes 4 times (sensors 1 and 2)"), ("acc2", 2, "the accelerometer comes 2 times (sensor 2)"),
                                     ("gyr1", 3, "the gyroscope comes 3 times (sensor 1)")):
             rows = [[ROWS[k - k % times if name.startswith(start) else k][c] for c, name in enumerate(COLUMNS)] for k in range(len(ROWS))]
             self.assertIn("each reading of " + words, " ".join(self.end_of(rows)["advice"]))
         rows = [row[:1] + ROWS[k - k % 2][1:] for k, row in enumerate(ROWS)]
-        self.assertIn("the whole sensor comes 2 times (sensor 1 and 2)", " ".join(self.end_of(rows)["advice"]))
+        self.assertIn("the whole sensor comes 2 times (sensors 1 and 2)", " ".join(self.end_of(rows)["advice"]))
 
     def test_readings_that_are_not_used_do_not_matter(self):
         rows = recordings.two_dof_rows(20)
@@ -201,6 +201,36 @@ class Readings(Words):
     def test_no_rows(self):
         self.assertEqual(self.lines(recordings.csv([]))[0][-1]["advice"], ["there is a header line and no row below it"])
         self.assertIn("there is a header line and no row below it", self.hinge(recordings.csv([])).stdout.decode())
+
+
+class Check(Words):
+    """`jointcal check`, which knows of no joint."""
+    def check(self, text, *arguments):
+        return self.run_program("check", self.write(text), *arguments)
+
+    def test_a_clean_recording(self):
+        result = self.check(recordings.csv(recordings.texts(ROWS)), "--json")
+        self.assertEqual((result.returncode, result.stderr), (0, b""))
+        line = self.parse(result.stdout)[0]
+        self.assertEqual(list(line), ["event", "samples", "rate_hz", "out_of_order", "gravity_m_s2", "gravity_turns", "rejected", "rejected_by", "advice"])
+        self.assertEqual((line["samples"], line["out_of_order"], line["rejected"], line["advice"]), (1000, 0, 0, []))
+        self.assertAlmostEqual(line["rate_hz"], 50.0, places=3)
+        for gravity, turns in zip(line["gravity_m_s2"], line["gravity_turns"], strict=True):
+            self.assertLess(abs(gravity - 9.81), 0.4)  # a bin of the histogram
+            self.assertLess(abs(turns - 1.0), 0.1)
+        self.assertIn("nothing is wrong", self.check(recordings.csv(recordings.texts(ROWS))).stdout.decode())
+
+    def test_wrong_ones(self):
+        for rows, part in ((scaled({"gyr": 57.3}), "look like deg/s"), (scaled({"acc": 0.10197}), "look like g"), ([row[:7] + row[1:7] for row in ROWS], "those of sensor 1")):
+            result = self.check(recordings.csv(recordings.texts(rows)))
+            self.assertEqual(result.returncode, 3)
+            self.assertIn(part, result.stdout.decode())
+        self.assertEqual(self.parse(self.check(recordings.csv([]), "--json").stdout)[0]["gravity_m_s2"], [None, None])
+        self.assert_error(self.check(SHORT + "1,2\n"), "r.csv:52: short line: 2 of 13 cells")
+
+    def test_three_sensors(self):
+        demo = (ROOT / "tools/demo/chain_demo.csv").read_text()
+        self.assertEqual(len(self.parse(self.check(demo, "--json").stdout)[0]["gravity_m_s2"]), 3)
 
 
 class Headers(Words):
@@ -244,7 +274,7 @@ class Headers(Words):
     def test_exports_of_others(self):
         dot = "sep=,\nDeviceTag:,x\nOutputRate:,60Hz\n\nPacketCounter,SampleTimeFine,"
         self.assert_says(dot + "Quat_W,Quat_X,Quat_Y,Quat_Z,FreeAcc_X,FreeAcc_Y,FreeAcc_Z\n1,2,1,0,0,0,0,0,0\n", "an export of Movella (Xsens) DOT",
-                         "lacks angular rates", "accelerations are free of gravity", "orientations alone are not enough", "4 lines stand before it")
+                         "lacks angular rates", "accelerations are free of gravity", "orientations alone are not enough", "with 4 lines before the header line")
         self.assert_says(dot + "Acc_X,Acc_Y,Acc_Z,Gyr_X,Gyr_Y,Gyr_Z\n1,2,0,0,9,0,0,0\n", "an export of Movella (Xsens) DOT", "both sensors in one file")
         self.assert_says("time,seconds_elapsed,z,y,x\n1,2,3,4,5\n", "missing columns")
         self.assert_says("Time (s),Linear Acceleration x (m/s^2),Linear Acceleration y (m/s^2),Linear Acceleration z (m/s^2)\n0,0,0,0\n",

@@ -217,8 +217,8 @@ static void say_held(check_findings_t *findings, const char *what, const int tim
             }
         }
         say(findings,
-            "each reading of the %s comes %d times (sensor %s): it is held between new ones, which is no fault", what,
-            times[k], names);
+            "each reading of the %s comes %d times (sensor%s %s): it is held between new ones, which is no fault", what,
+            times[k], (strlen(names) > 1) ? "s" : "", names);
     }
 }
 
@@ -273,5 +273,18 @@ void check_findings(const check_t *check, check_findings_t *findings)
     }
     if (!check->times_only) {
         say_remarks(check, findings);
+    }
+}
+
+void check_measures(const check_t *check, check_measures_t *measures)
+{
+    memset(measures, 0, sizeof *measures);
+    measures->step_s = check_time_step_s(&check->times);
+    measures->out_of_order = check_time_out_of_order(&check->times);
+    for (int k = 0; k < CHECK_SENSORS; k++) {
+        const check_sensor_verdict_t verdict = check_sensor_verdict(&check->sensors[k]);
+        measures->gravity_m_s2[k] = verdict.gravity;
+        measures->gravity_turns[k] = verdict.scale;
+        measures->gravity_fit[k] = verdict.fit;
     }
 }

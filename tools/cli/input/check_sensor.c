@@ -189,6 +189,7 @@ static void judge_frames(const check_sensor_t *sensor, check_sensor_verdict_t *v
         return;
     }
     verdict->scale = frames.scale_as_is;
+    verdict->fit = fmax(frames.fit_as_is, 0.0);
     if (frames.fit_as_is > FRAMES_FIT) {
         verdict->fault = about_one(frames.scale_as_is) ? CHECK_SENSOR_FINE : CHECK_SENSOR_RATE_UNIT;
         return;

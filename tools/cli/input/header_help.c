@@ -307,13 +307,12 @@ static bool later_header(csv_t *csv, const header_names_t *names, bool note, cha
     }
     const unsigned long before = (unsigned long)csv->cells[0].line - 1;
     const char *whose = maker(csv);
-    if (before == 1 && note) {
+    if (whose != NULL) {
+        add(text, "this is %s, with %lu lines before the header line, which must come first", whose, before);
+    } else if (before == 1 && note) {
         add(text, "'%s' is a note for spreadsheets, not the header line: take this line out", found);
     } else {
         add(text, "the header line must come first, and here %lu lines stand before it: take them out", before);
-    }
-    if (whose != NULL) {
-        add(text, "; this is %s", whose);
     }
     if (count_known(csv, names) < 3) {
         describe(text, has);

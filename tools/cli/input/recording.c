@@ -127,6 +127,11 @@ static recording_event_t read_header(recording_t *recording)
     return check_missing(recording, 0, RECORDING_COLUMNS);
 }
 
+bool recording_has_third(const recording_t *recording)
+{
+    return all_found(recording, FIRST_THIRD, FIRST_THIRD_ORIENTATION);
+}
+
 recording_event_t recording_want_third(recording_t *recording)
 {
     recording->want_third = true;

@@ -185,13 +185,14 @@ static void print_ready_time(FILE *file, const report_t *report)
     }
 }
 
-static void print_samples(FILE *file, const jcal_head_t *head)
+void report_print_samples(FILE *file, uint32_t samples, uint32_t rejected,
+                          const uint32_t rejected_by[static JCAL_REJECT_COUNT])
 {
-    (void)fprintf(file, "  %-18s %" PRIu32 " read, %" PRIu32 " rejected", "samples", head->samples, head->rejected);
+    (void)fprintf(file, "  %-18s %" PRIu32 " read, %" PRIu32 " rejected", "samples", samples, rejected);
     const char *before = ": ";
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
-        if (head->rejected_by[k] > 0) {
-            (void)fprintf(file, "%s%" PRIu32 " %s", before, head->rejected_by[k], reject_words((jcal_reject_t)k));
+        if (rejected_by[k] > 0) {
+            (void)fprintf(file, "%s%" PRIu32 " %s", before, rejected_by[k], reject_words((jcal_reject_t)k));
             before = ", ";
         }
     }
@@ -270,7 +271,7 @@ void report_print_state(FILE *file, const report_t *report)
     report_print_words(file, "weakest", weak_words(head->weak));
     print_help(file, report);
     print_ready_time(file, report);
-    print_samples(file, head);
+    report_print_samples(file, head->samples, head->rejected, head->rejected_by);
 }
 
 void report_print_exit(FILE *file, const report_t *report)
