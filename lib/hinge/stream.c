@@ -71,7 +71,7 @@
 #define SETTLED_ROUNDS 4u
 
 /// With the slots of the default inbox.
-typedef char jcal_hinge_fits_its_budget[((sizeof(jcal_hinge_t) - sizeof(jcal_inbox_t)) <= (2048u - 240u)) ? 1 : -1];
+typedef char jcal_hinge_fits_its_budget[((sizeof(jcal_hinge_t) - sizeof(jcal_inbox_t)) <= (2048u - 232u)) ? 1 : -1];
 
 /// Nothing is known yet, or no more.
 static void say_nothing_is_known(jcal_hinge_verdict_t *verdict)

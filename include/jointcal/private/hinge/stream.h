@@ -32,11 +32,11 @@ typedef struct {
     float rest_s;        ///< How long neither sensor has turned.
     float rate_product;  ///< Low-passed |w1| |w2|.
     jcal_hinge_amount_t amount;
-    float credit_s;  ///< Time not yet paid for with slices of work.
-    uint64_t last_us;
+    float credit_s;       ///< Time not yet paid for with slices of work.
     uint8_t slice;        ///< Next slice of the cycle.
     int8_t kept_sign[2];  ///< Signs of both axes from the first `ready` on; lib/joint/sign.h.
     bool has_last;
+    uint64_t last_us;
 } jcal_hinge_t;
 
 #ifdef __cplusplus
