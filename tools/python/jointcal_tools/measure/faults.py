@@ -331,6 +331,8 @@ def slow_degrees(rng: np.random.Generator) -> Case:
 def glitch_then_clipped(rng: np.random.Generator) -> Case:
     """Clipped rates, and early on one to three samples far beyond the limit."""
     case = clipped_gyr(rng)
+    at_limit = [(np.abs(gyr) >= np.abs(gyr).max()).any(axis=1) for gyr in (case.rec.gyr1, case.rec.gyr2)]
+    case.after_s = float(case.rec.t_s[np.flatnonzero(at_limit[0] | at_limit[1])[0]] - case.rec.t_s[0])  # what came before is right
     index, part = int(rng.integers(2)), int(rng.integers(3))
     gyr, acc = (signal.copy() for signal in signals(case.rec, index))
     begin = int(rng.integers(1, len(gyr) // 4))
