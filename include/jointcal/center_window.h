@@ -29,6 +29,7 @@ extern "C" {
 #define JCAL_CENTER_WINDOW_STORAGE_BYTES(n_max) ((size_t)(n_max) * sizeof(jcal_kinematic_t))
 
 /// Bytes of storage that a config needs: JCAL_CENTER_WINDOW_STORAGE_BYTES of its field.
+/// Threads:  no state.
 size_t jcal_center_window_storage_bytes(const jcal_center_window_config_t *config);
 
 /// Prepares an estimator; whatever `self` and the storage held before is lost.
@@ -37,6 +38,7 @@ size_t jcal_center_window_storage_bytes(const jcal_center_window_config_t *confi
 ///           `self` is used.
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG (jcal_center_window_config_check says which field); JCAL_ERR_STORAGE (too small or
 ///           not aligned); self untouched.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 JCAL_MUST_CHECK jcal_status_t jcal_center_window_init(jcal_center_window_t *self,
                                                       const jcal_center_window_config_t *config, void *storage,
                                                       size_t storage_bytes);
@@ -44,17 +46,20 @@ JCAL_MUST_CHECK jcal_status_t jcal_center_window_init(jcal_center_window_t *self
 /// Tells a copy of an estimator where the copy of its storage is.
 ///
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_STORAGE (too small or not aligned); self untouched.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 JCAL_MUST_CHECK jcal_status_t jcal_center_window_attach(jcal_center_window_t *self, void *storage,
                                                         size_t storage_bytes);
 
 /// Takes in one sample pair: checks it and puts it into the inbox. May run in an interrupt that preempts step.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG (null, or JCAL_CENTER_LS); JCAL_ERR_FULL.
+/// Threads:  may preempt step and get, or run beside them on another core; not beside itself.
 jcal_status_t jcal_center_window_push(jcal_center_window_t *self, const jcal_pair_t *pair);
 
 /// The same with both sensors' orientations, each to its earth frame: with JCAL_CENTER_LS it needs them.
 ///
 /// Returns:  as jcal_center_window_push; a quaternion that is not of length 1 is JCAL_REJECTED as out of range.
+/// Threads:  may preempt step and get, or run beside them on another core; not beside itself.
 jcal_status_t jcal_center_window_push_oriented(jcal_center_window_t *self, const jcal_pair_t *pair,
                                                const jcal_attitudes_t *attitudes);
 
@@ -62,15 +67,19 @@ jcal_status_t jcal_center_window_push_oriented(jcal_center_window_t *self, const
 ///
 /// Returns:  JCAL_OK; JCAL_IDLE if the inbox was empty; JCAL_ERR_ARG.
 /// Cost:     about 200 multiply-adds and 2 square roots for each sample in the window.
+/// Threads:  one task; a push may preempt it. Not beside get.
 jcal_status_t jcal_center_window_step(jcal_center_window_t *self);
 
 /// Push and step in one call, for those who need no split. Returns what push returned.
+/// Threads:  one task; no push beside it.
 jcal_status_t jcal_center_window_update(jcal_center_window_t *self, const jcal_pair_t *pair);
 
 /// Copies the current result. Errors: JCAL_ERR_ARG.
+/// Threads:  the task of step, or behind a lock; a push may preempt it.
 jcal_status_t jcal_center_window_get(const jcal_center_window_t *self, jcal_center_result_t *out);
 
 /// Forgets all data, keeps the config and the storage. Errors: JCAL_ERR_ARG.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 jcal_status_t jcal_center_window_reset(jcal_center_window_t *self);
 
 #ifdef __cplusplus

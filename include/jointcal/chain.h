@@ -55,11 +55,13 @@ typedef struct {
 /// Prepares an estimator; whatever `self` held before is lost.
 ///
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG (jcal_chain_config_check says which field); self untouched.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 JCAL_MUST_CHECK jcal_status_t jcal_chain_init(jcal_chain_t *self, const jcal_chain_config_t *config);
 
 /// Takes in one sample of all three. `attitudes` may be null unless the method is JCAL_CENTER_LS.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL: neither joint has taken anything.
+/// Threads:  may preempt step and get, or run beside them on another core; not beside itself.
 jcal_status_t jcal_chain_push(jcal_chain_t *self, const jcal_triple_t *triple,
                               const jcal_triple_attitudes_t *attitudes);
 
@@ -67,6 +69,7 @@ jcal_status_t jcal_chain_push(jcal_chain_t *self, const jcal_triple_t *triple,
 ///
 /// Returns:  JCAL_OK; JCAL_IDLE if there was nothing; JCAL_ERR_ARG.
 /// Cost:     two steps of center.h; the ties of jcal_chain_get once per judgement, where a joint is not ready by itself.
+/// Threads:  one task; a push may preempt it. Not beside get.
 jcal_status_t jcal_chain_step(jcal_chain_t *self);
 
 /// Push and step in one call, for those who need no split; after pushes without steps it makes room first. Returns what push returned.
@@ -76,9 +79,11 @@ jcal_status_t jcal_chain_update(jcal_chain_t *self, const jcal_triple_t *triple,
 /// Ties both joints together and says what is known. Errors: JCAL_ERR_ARG.
 ///
 /// Cost:     about 4000 multiply-adds; stack about 1.4 KiB.
+/// Threads:  the task of step, or behind a lock; a push may preempt it.
 jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out);
 
 /// Forgets all data, keeps the config. Errors: JCAL_ERR_ARG.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 jcal_status_t jcal_chain_reset(jcal_chain_t *self);
 
 #ifdef __cplusplus

@@ -26,9 +26,11 @@ typedef struct {
 } jcal_chain_config_t;
 
 /// The defaults described at each field.
+/// Threads:  no state.
 jcal_chain_config_t jcal_chain_config_default(void);
 
 /// Name of the first field that is out of its range, or null if the config is valid.
+/// Threads:  no state.
 const char *jcal_chain_config_check(const jcal_chain_config_t *config);
 
 #ifdef __cplusplus

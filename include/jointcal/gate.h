@@ -28,24 +28,29 @@ typedef struct {
 } jcal_gate_config_t;
 
 /// The defaults described at each field.
+/// Threads:  no state.
 jcal_gate_config_t jcal_gate_config_default(void);
 
 /// Name of the first field that is out of its range, or null if the config is valid.
+/// Threads:  no state.
 const char *jcal_gate_config_check(const jcal_gate_config_t *config);
 
 /// Empties the gate.
+/// Threads:  one caller at a time; inside push it is push.
 void jcal_gate_init(jcal_gate_t *self);
 
 /// Checks one sample pair against a valid config, remembers it and counts the outcome.
 ///
 /// Returns:  JCAL_REJECT_NONE, or the cause that counts.
 /// Cost:     constant, about 150 floating-point operations; no square root but two.
+/// Threads:  one caller at a time; inside push it is push.
 jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *config, const jcal_pair_t *pair);
 
 /// Counts a sample that something else than its readings excludes, as if this gate had rejected it.
 void jcal_gate_refuse(jcal_gate_t *self, jcal_reject_t cause);
 
 /// What is wrong with the stream as a whole: JCAL_REASON_NONE, _WRONG_UNITS_GYR, _WRONG_UNITS_ACC or _BAD_SAMPLES.
+/// Threads:  one caller at a time; inside push it is push.
 jcal_reason_t jcal_gate_complaint(const jcal_gate_t *self);
 
 #ifdef __cplusplus

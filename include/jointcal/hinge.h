@@ -50,25 +50,31 @@ typedef struct {
 /// Prepares an estimator; whatever `self` held before is lost.
 ///
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG (jcal_hinge_config_check says which field); self untouched.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 JCAL_MUST_CHECK jcal_status_t jcal_hinge_init(jcal_hinge_t *self, const jcal_hinge_config_t *config);
 
 /// Takes in one sample pair: checks it and puts it into the inbox. May run in an interrupt that preempts step.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL.
+/// Threads:  may preempt step and get, or run beside them on another core; not beside itself.
 jcal_status_t jcal_hinge_push(jcal_hinge_t *self, const jcal_pair_t *pair);
 
 /// Works off one sample of the inbox and one bounded slice of solving.
 ///
 /// Returns:  JCAL_OK; JCAL_IDLE if the inbox was empty; JCAL_ERR_ARG.
+/// Threads:  one task; a push may preempt it. Not beside get.
 jcal_status_t jcal_hinge_step(jcal_hinge_t *self);
 
 /// Push and step in one call, for those who need no split. Returns what push returned.
+/// Threads:  one task; no push beside it.
 jcal_status_t jcal_hinge_update(jcal_hinge_t *self, const jcal_pair_t *pair);
 
 /// Copies the current result. Errors: JCAL_ERR_ARG.
+/// Threads:  the task of step, or behind a lock; a push may preempt it.
 jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out);
 
 /// Forgets all data, keeps the config. Errors: JCAL_ERR_ARG.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 jcal_status_t jcal_hinge_reset(jcal_hinge_t *self);
 
 #ifdef __cplusplus

@@ -79,15 +79,19 @@ typedef struct {
 } jcal_hinge_window_config_t;
 
 /// The defaults described at each field.
+/// Threads:  no state.
 jcal_hinge_config_t jcal_hinge_config_default(void);
 
 /// Name of the first field that is out of its range, or null if the config is valid.
+/// Threads:  no state.
 const char *jcal_hinge_config_check(const jcal_hinge_config_t *config);
 
 /// The defaults described at each field.
+/// Threads:  no state.
 jcal_hinge_window_config_t jcal_hinge_window_config_default(void);
 
 /// Name of the first field that is out of its range, or null if the config is valid.
+/// Threads:  no state.
 const char *jcal_hinge_window_config_check(const jcal_hinge_window_config_t *config);
 
 #ifdef __cplusplus

@@ -38,6 +38,7 @@ extern "C" {
      ((2u * (size_t)(n_max) + 1u) * sizeof(jcal_row_t)))
 
 /// Bytes of storage that a config needs: JCAL_HINGE_WINDOW_STORAGE_BYTES of its fields.
+/// Threads:  no state.
 size_t jcal_hinge_window_storage_bytes(const jcal_hinge_window_config_t *config);
 
 /// Prepares an estimator; whatever `self` and the storage held before is lost.
@@ -46,6 +47,7 @@ size_t jcal_hinge_window_storage_bytes(const jcal_hinge_window_config_t *config)
 ///           as long as `self` is used.
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG (jcal_hinge_window_config_check says which field); JCAL_ERR_STORAGE
 ///           (too small or not aligned); self untouched.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 JCAL_MUST_CHECK jcal_status_t jcal_hinge_window_init(jcal_hinge_window_t *self,
                                                      const jcal_hinge_window_config_t *config, void *storage,
                                                      size_t storage_bytes);
@@ -53,11 +55,13 @@ JCAL_MUST_CHECK jcal_status_t jcal_hinge_window_init(jcal_hinge_window_t *self,
 /// Tells a copy of an estimator where the copy of its storage is.
 ///
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_STORAGE (too small or not aligned); self untouched.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 JCAL_MUST_CHECK jcal_status_t jcal_hinge_window_attach(jcal_hinge_window_t *self, void *storage, size_t storage_bytes);
 
 /// Takes in one sample pair: checks it and puts it into the inbox. May run in an interrupt that preempts step.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL.
+/// Threads:  may preempt step and get, or run beside them on another core; not beside itself.
 jcal_status_t jcal_hinge_window_push(jcal_hinge_window_t *self, const jcal_pair_t *pair);
 
 /// Works off one sample of the inbox: scores, selection, one Gauss-Newton step, a slice of the full solve.
@@ -66,15 +70,19 @@ jcal_status_t jcal_hinge_window_push(jcal_hinge_window_t *self, const jcal_pair_
 /// Cost:     (1 + JCAL_HINGE_WINDOW_SLICES) iterations, each about 130 n_max multiply-adds and 6 n_max square roots;
 ///           once, when more than n_max samples have been seen, O(n_max log n_max) moves of 32 bytes.
 ///           Stack <= 1.5 KiB.
+/// Threads:  one task; a push may preempt it. Not beside get.
 jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self);
 
 /// Push and step in one call, for those who need no split. Returns what push returned.
+/// Threads:  one task; no push beside it.
 jcal_status_t jcal_hinge_window_update(jcal_hinge_window_t *self, const jcal_pair_t *pair);
 
 /// Copies the current result. Errors: JCAL_ERR_ARG.
+/// Threads:  the task of step, or behind a lock; a push may preempt it.
 jcal_status_t jcal_hinge_window_get(const jcal_hinge_window_t *self, jcal_hinge_result_t *out);
 
 /// Forgets all data, keeps the config and the storage. Errors: JCAL_ERR_ARG.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 jcal_status_t jcal_hinge_window_reset(jcal_hinge_window_t *self);
 
 /// Which samples are selected now, in no particular order: numbers of the pushes since init or reset, from 0,
@@ -83,6 +91,7 @@ jcal_status_t jcal_hinge_window_reset(jcal_hinge_window_t *self);
 /// Inputs:   n_gyr, n_acc  room in gyr and acc; n_max is enough for each.
 /// Outputs:  gyr, acc; n_gyr, n_acc how many. Untouched on error.
 /// Errors:   JCAL_ERR_ARG (null, or too little room).
+/// Threads:  the task of step, or behind a lock; a push may preempt it.
 jcal_status_t jcal_hinge_window_selection(const jcal_hinge_window_t *self, uint32_t *gyr, size_t *n_gyr, uint32_t *acc,
                                           size_t *n_acc);
 

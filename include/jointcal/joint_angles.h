@@ -61,6 +61,7 @@ float jcal_angle_wrap(float angle_rad);
 ///
 /// Inputs:   axis1, axis2  axes in sensor frames 1 and 2 with the right sign pairing, any length.
 /// Errors:   JCAL_ERR_ARG (null, or an axis that has no direction); out untouched.
+/// Threads:  no state.
 jcal_status_t jcal_frames_hinge(jcal_vec3_t axis1, jcal_vec3_t axis2, jcal_joint_frames_t *out);
 
 /// Segment frames B'1 and B'2 of a joint with two axes: z of B'1 is axis 1, y of B'2 is axis 2.
@@ -68,6 +69,7 @@ jcal_status_t jcal_frames_hinge(jcal_vec3_t axis1, jcal_vec3_t axis2, jcal_joint
 /// Inputs:   axis1, axis2  j1 and j2 in sensor frames 1 and 2, any length.
 /// Errors:   JCAL_ERR_ARG (null, or an axis that has no direction); out untouched.
 /// Source:   [LAI22] eq. (19), (20). Differs from the paper in: no arccos; the angle's tangent is known, too.
+/// Threads:  no state.
 jcal_status_t jcal_frames_two_dof(jcal_vec3_t axis1, jcal_vec3_t axis2, jcal_joint_frames_t *out);
 
 /// Orientation of B2 relative to B1: rotates from B2 to B1.
@@ -76,12 +78,14 @@ jcal_status_t jcal_frames_two_dof(jcal_vec3_t axis1, jcal_vec3_t axis2, jcal_joi
 /// Returns:  a unit quaternion; four NaN if frames is null, the length of a quaternion differs from 1 by more than 0.05, or
 ///           the heading is not finite or too large.
 /// Source:   [LAI22] eq. (6), (21).
+/// Threads:  no state.
 jcal_quat_t jcal_joint_orientation(const jcal_joint_frames_t *frames, jcal_quat_t q_s1_e1, jcal_quat_t q_s2_e2,
                                    float heading_rad);
 
 /// Flexion of a hinge: the part of the rotation that is about z. What is left, errors of axes or heading, is ignored.
 ///
 /// A rotation by exactly half a turn about an axis across z has no such part; it gives 0. NaN gives NaN.
+/// Threads:  no state.
 jcal_joint_angles_t jcal_hinge_angles(jcal_quat_t q_b2_b1);
 
 /// z-x'-y'' Euler angles: flexion, carrying angle, pronation.
@@ -89,6 +93,7 @@ jcal_joint_angles_t jcal_hinge_angles(jcal_quat_t q_b2_b1);
 /// Where the axes are parallel (carrying angle of +-90 deg, to 1e-3 rad) only a sum is known: all of it is called flexion. NaN gives NaN.
 /// Source:   [LAI22] eq. (22)-(24). Differs from the paper in: (23) prints q3 where q_z is meant; arcsin by way of the cosine, which
 ///           keeps its accuracy near 90 deg.
+/// Threads:  no state.
 jcal_joint_angles_t jcal_two_dof_angles(jcal_quat_t q_b2_b1);
 
 /// Turns the segment frames so that the pose that now gives the angles `is` will give `shall` instead.
@@ -97,20 +102,25 @@ jcal_joint_angles_t jcal_two_dof_angles(jcal_quat_t q_b2_b1);
 /// `is` is the end of a jcal_angle_range_t, `shall` what the joint has there. Carrying angles do not count: nothing changes them.
 /// Frames stay as they are if a pointer is null or a difference of angles is not finite or beyond 1000 rad.
 /// Source:   [LAI22] eq. (25), (26).
+/// Threads:  no state.
 void jcal_frames_zero(jcal_joint_frames_t *frames, const jcal_joint_angles_t *is, const jcal_joint_angles_t *shall);
 
 /// The angles in a convention of signs.
+/// Threads:  no state.
 jcal_joint_angles_t jcal_angles_signed(jcal_joint_angles_t angles, jcal_positive_t positive);
 
 /// The axis or its opposite, whichever points into the half-space around `direction`; the axis itself if it lies on the border.
 ///
 /// Source:   [LAI22] C.3, first way: a sensor placement that is roughly known.
+/// Threads:  no state.
 jcal_vec3_t jcal_axis_toward(jcal_vec3_t axis, jcal_vec3_t direction);
 
 /// Nothing seen yet. Null: does nothing.
+/// Threads:  no state.
 void jcal_angle_range_reset(jcal_angle_range_t *self);
 
 /// Takes in the next value; one that is not finite or beyond 1000 rad is left out. Null: does nothing. Cost: constant.
+/// Threads:  no state.
 void jcal_angle_range_push(jcal_angle_range_t *self, float angle_rad);
 
 /// +1 if the axis of this angle has the sign that makes its mean positive, -1 if it is the other one, 0 if that is open: null, no

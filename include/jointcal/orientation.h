@@ -21,6 +21,7 @@ extern "C" {
 /// A quaternion whose length differs from 1 by more than 0.05 is out of range. Of `config` only frozen_s and gap_s count.
 /// Returns:  JCAL_REJECT_NONE, or the cause that counts.
 /// Cost:     constant, about 40 floating-point operations.
+/// Threads:  one caller at a time; inside push it is push.
 jcal_reject_t jcal_orientation_gate_check(jcal_orientation_gate_t *self, const jcal_gate_config_t *config,
                                           const jcal_orientation_pair_t *pair);
 

@@ -12,13 +12,13 @@ extern "C" {
 
 /// Why a sample was not used; one cause counts: not finite, else time, else the first of the others. Also the index of its counter.
 ///
-/// Time that does not increase is never believed again: after a wild time stamp far in the future, or a clock that starts
-/// anew, every sample is rejected (and the status says `bad_samples`) until the caller resets.
+/// One wild time stamp costs one sample. Time that goes back is believed once samples have gone on from each other for 0.4 s: those
+/// are `time_order`, the one at which it is believed is a `gap`, and the calibration is kept.
 typedef enum {
     JCAL_REJECT_NOT_FINITE = 0,    ///< A value is NaN or infinite.
     JCAL_REJECT_OUT_OF_RANGE = 1,  ///< Beyond what a sensor can read, or wrong units.
     JCAL_REJECT_SATURATED = 2,     ///< A component stands at its extreme: clipped.
-    JCAL_REJECT_FROZEN = 3,        ///< A sensor has repeated itself for longer than `frozen_s`.
+    JCAL_REJECT_FROZEN = 3,        ///< A sensor, or a component while the others move, has stood for too long.
     JCAL_REJECT_REPEATED = 4,      ///< A sensor repeats its previous reading: a lost packet.
     JCAL_REJECT_TIME_ORDER = 5,    ///< Time did not increase.
     JCAL_REJECT_GAP = 6,           ///< First sample after a hole in time.

@@ -50,25 +50,31 @@ typedef struct {
 /// Prepares an estimator; whatever `self` held before is lost.
 ///
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG (jcal_two_dof_config_check says which field); self untouched.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 JCAL_MUST_CHECK jcal_status_t jcal_two_dof_init(jcal_two_dof_t *self, const jcal_two_dof_config_t *config);
 
 /// Takes in one pair of orientations: checks it and keeps about 25 a second. May run in an interrupt that preempts step.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL.
+/// Threads:  may preempt step and get, or run beside them on another core; not beside itself.
 jcal_status_t jcal_two_dof_push(jcal_two_dof_t *self, const jcal_orientation_pair_t *pair);
 
 /// Works off one bounded share of what is to be done.
 ///
 /// Returns:  JCAL_OK; JCAL_IDLE if there is nothing to do; JCAL_ERR_ARG.
+/// Threads:  one task; a push may preempt it. Not beside get.
 jcal_status_t jcal_two_dof_step(jcal_two_dof_t *self);
 
 /// Push and step in one call, for those who need no split. Returns what push returned.
+/// Threads:  one task; no push beside it.
 jcal_status_t jcal_two_dof_update(jcal_two_dof_t *self, const jcal_orientation_pair_t *pair);
 
 /// Copies the current result. Errors: JCAL_ERR_ARG.
+/// Threads:  the task of step, or behind a lock; a push may preempt it.
 jcal_status_t jcal_two_dof_get(const jcal_two_dof_t *self, jcal_two_dof_result_t *out);
 
 /// Forgets all data, keeps the config. Errors: JCAL_ERR_ARG.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 jcal_status_t jcal_two_dof_reset(jcal_two_dof_t *self);
 
 #ifdef __cplusplus

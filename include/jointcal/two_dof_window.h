@@ -29,6 +29,7 @@ extern "C" {
 #define JCAL_TWO_DOF_WINDOW_STORAGE_BYTES(n_max) ((size_t)(n_max) * sizeof(jcal_two_dof_row_t))
 
 /// Bytes of storage that a config needs: JCAL_TWO_DOF_WINDOW_STORAGE_BYTES of its n_max.
+/// Threads:  no state.
 size_t jcal_two_dof_window_storage_bytes(const jcal_two_dof_window_config_t *config);
 
 /// Prepares an estimator; whatever `self` and the storage held before is lost.
@@ -37,6 +38,7 @@ size_t jcal_two_dof_window_storage_bytes(const jcal_two_dof_window_config_t *con
 ///           `self` is used.
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG (jcal_two_dof_window_config_check says which field); JCAL_ERR_STORAGE (too small or
 ///           not aligned); self untouched.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 JCAL_MUST_CHECK jcal_status_t jcal_two_dof_window_init(jcal_two_dof_window_t *self,
                                                        const jcal_two_dof_window_config_t *config, void *storage,
                                                        size_t storage_bytes);
@@ -44,6 +46,7 @@ JCAL_MUST_CHECK jcal_status_t jcal_two_dof_window_init(jcal_two_dof_window_t *se
 /// Tells a copy of an estimator where the copy of its storage is.
 ///
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_STORAGE (too small or not aligned); self untouched.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 JCAL_MUST_CHECK jcal_status_t jcal_two_dof_window_attach(jcal_two_dof_window_t *self, void *storage,
                                                          size_t storage_bytes);
 
@@ -51,6 +54,7 @@ JCAL_MUST_CHECK jcal_status_t jcal_two_dof_window_attach(jcal_two_dof_window_t *
 /// interrupt that preempts step.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL.
+/// Threads:  may preempt step and get, or run beside them on another core; not beside itself.
 jcal_status_t jcal_two_dof_window_push(jcal_two_dof_window_t *self, const jcal_orientation_pair_t *pair);
 
 /// Works off the orientation that waits.
@@ -59,15 +63,19 @@ jcal_status_t jcal_two_dof_window_push(jcal_two_dof_window_t *self, const jcal_o
 /// Cost:     at most three passes over the buffer: the estimate's own step, and two of the search (a step of the second best minimum,
 ///           a step from a start, or the costs of a start's 8 headings). A pass takes about 250 multiply-adds and one square root per
 ///           row, that over headings about 400 and 8.
+/// Threads:  one task; a push may preempt it. Not beside get.
 jcal_status_t jcal_two_dof_window_step(jcal_two_dof_window_t *self);
 
 /// Push and step in one call, for those who need no split. Returns what push returned.
+/// Threads:  one task; no push beside it.
 jcal_status_t jcal_two_dof_window_update(jcal_two_dof_window_t *self, const jcal_orientation_pair_t *pair);
 
 /// Copies the current result. Errors: JCAL_ERR_ARG.
+/// Threads:  the task of step, or behind a lock; a push may preempt it.
 jcal_status_t jcal_two_dof_window_get(const jcal_two_dof_window_t *self, jcal_two_dof_result_t *out);
 
 /// Forgets all data, keeps the config and the storage. Errors: JCAL_ERR_ARG.
+/// Threads:  nothing else runs on this estimator meanwhile, push neither.
 jcal_status_t jcal_two_dof_window_reset(jcal_two_dof_window_t *self);
 
 /// Times of the samples in the buffer, oldest first.
@@ -75,6 +83,7 @@ jcal_status_t jcal_two_dof_window_reset(jcal_two_dof_window_t *self);
 /// Inputs:   count  room in t_us; n_max is enough.
 /// Outputs:  t_us; count how many. Untouched on error.
 /// Errors:   JCAL_ERR_ARG (null, or too little room).
+/// Threads:  the task of step, or behind a lock; a push may preempt it.
 jcal_status_t jcal_two_dof_window_kept(const jcal_two_dof_window_t *self, uint64_t *t_us, size_t *count);
 
 #ifdef __cplusplus

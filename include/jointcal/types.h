@@ -10,9 +10,18 @@
 /// - o is the joint. r1 and r2 lead from it to the sensors, in m; r1 is given in sensor frame 1, r2 in sensor frame 2.
 /// - j1 and j2 are the joint's axes, unit vectors: j1 in sensor frame 1, j2 in sensor frame 2. A hinge has one axis, seen by both.
 /// - Rates are in rad/s, specific forces in m/s^2: a sensor at rest reads +9.81 on the axis that points up.
-/// - Time is in microseconds from any origin. Angles are in rad, lengths in m.
+/// - Time is in microseconds from any origin. Angles are in rad, lengths in m. A clock that goes back, as 32-bit microseconds after
+///   71.6 minutes, is believed after 0.4 s; what was found is kept.
 /// - Earth frames have z up. Orientations without a magnetometer have a heading of their own each: E1 and E2. The heading offset
 ///   turns E2 to E1 about z.
+///
+/// Threads. Every estimator is a struct of the caller, and nothing is shared between two of them. Of one estimator two calls may run at
+/// the same time: one push, in an interrupt, another task or on another core, and one of step, get or update's other verbs. They hand
+/// samples over without a lock: 16-bit loads and stores must be atomic, JCAL_BARRIER of config.h keeps their order, and no call waits.
+/// All other calls on one estimator belong to one task, or behind the caller's lock: two pushes (of two interrupts, say) must not
+/// preempt each other, nor may step and get; update is push and step in one, so nothing may push beside it. The counters that get
+/// reports may be one push behind each other if a push preempts it. init, reset and attach write everything: keep push out meanwhile,
+/// by a masked interrupt or a flag that the producer looks at; a push that preempts them may be lost or leave a wrong count.
 #ifndef JCAL_TYPES_H
 #define JCAL_TYPES_H
 

@@ -30,6 +30,8 @@
 /// below 2 g.
 #define GYR_CLIP_MIN_RAD_S 0.2f
 #define ACC_CLIP_MIN_M_S2 15.0f
+/// An extreme is believed if the reading beside it reached this share of it; else that of the reading beside it.
+#define HELD_SHARE 0.9f
 #define EXTREME_UNITS 65535.0f
 /// Share of an extreme that goes each time it fades, one part in 2^6: 67 s to 1/e.
 #define EXTREME_FADE 6u
@@ -117,14 +119,14 @@ static bool is_clipped(const jcal_gate_sensor_t *self, const jcal_gate_config_t 
             stands_at_extreme(&last[3], &now[3], &self->extreme[3], ACC_CLIP_MIN_M_S2, cfg->acc_max_m_s2));
 }
 
-/// An extreme is what a component held for two readings, the smaller one at least half of the larger: not a glitch.
+/// An extreme is what a component held for two readings, the smaller one nearly as large: not a glitch.
 static void remember(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const float now[6])
 {
     for (unsigned i = 0u; i < 6u; ++i) {
         const float more = jcal_max(fabsf(now[i]), fabsf(self->last[i]));
         const float less = jcal_min(fabsf(now[i]), fabsf(self->last[i]));
         const uint16_t held =
-            in_units(((2.0f * less) >= more) ? more : less, (i < 3u) ? cfg->gyr_max_rad_s : cfg->acc_max_m_s2);
+            in_units((less >= (HELD_SHARE * more)) ? more : less, (i < 3u) ? cfg->gyr_max_rad_s : cfg->acc_max_m_s2);
         self->extreme[i] = (held > self->extreme[i]) ? held : self->extreme[i];
         self->last[i] = now[i];
     }

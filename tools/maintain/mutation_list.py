@@ -175,7 +175,7 @@ MUTATIONS = [
     (SENSOR, "jcal_vec3_cross(turn->from_m_s2, turn->angle_rad)", "jcal_vec3_cross(turn->from_m_s2, turn->from_m_s2)",
      "turning gravity"),
     (SENSOR, "#define TURN_MAX_S 1.0f", "#define TURN_MAX_S 1e9f", "a sensor at rest keeps the turn to itself"),
-    (SENSOR, "((2.0f * less) >= more) ? more : less", "(less >= 0.0f) ? more : less", "a glitch is no range"),
+    (SENSOR, "(less >= (HELD_SHARE * more)) ? more : less", "more", "a glitch is no range"),
     (SENSOR, "#define EXTREME_FADE 6u", "#define EXTREME_FADE 16u", "extremes fade"),
     (SENSOR, "return found && !stands(last, now);", "return found;", "an accelerometer that is held"),
     (SENSOR, "(across > (IN_PLANE * square))", "(across >= 0.0f)", "motion in a plane without noise"),

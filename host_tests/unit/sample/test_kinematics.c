@@ -300,6 +300,27 @@ static void blocks_bridge_a_short_hole_and_no_long_one(void)
     TEST_ASSERT_EQUAL_UINT32(25u, feed(&m, 60, 40, &SMOOTHED, &s));
 }
 
+static void a_hole_that_32_bits_do_not_see_is_a_hole(void)
+{
+    /* 2^32 us and one sample later the low halves of the times go on as if nothing had been. */
+    const uint64_t holes[] = {1ull << 32, (1ull << 32) + 100000u, 3ull << 32, 1ull << 40};
+    const center_motion_t m = center_lively(4);
+    for (int i = 0; i < 4; ++i) {
+        jcal_kinematic_t s;
+        jcal_kinematics_begin(&chain);
+        TEST_ASSERT_EQUAL_UINT32(25u, feed(&m, 0, 40, &SMOOTHED, &s));
+        uint32_t fed = 0u;
+        bool has = false;
+        while (!has && (fed < 60u)) {
+            jcal_pair_t pair = center_sample(&m, 25u + fed);
+            pair.t_us += holes[i];
+            has = jcal_kinematics_put(&chain, &SMOOTHED, &pair, NULL, &s);
+            ++fed;
+        }
+        TEST_ASSERT_EQUAL_UINT32(25u, fed); /* as from the beginning */
+    }
+}
+
 static void jitter_is_no_hole(void)
 {
     const center_motion_t m = center_lively(5);
@@ -436,6 +457,7 @@ int main(void)
     RUN_TEST(a_hole_begins_a_new_chain);
     RUN_TEST(a_distance_that_is_too_short_begins_a_new_chain);
     RUN_TEST(blocks_bridge_a_short_hole_and_no_long_one);
+    RUN_TEST(a_hole_that_32_bits_do_not_see_is_a_hole);
     RUN_TEST(jitter_is_no_hole);
     RUN_TEST(frames_follow_a_fast_even_turn);
     RUN_TEST(an_orientation_and_its_negative_in_one_bin_are_the_same);

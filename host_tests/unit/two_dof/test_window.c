@@ -217,7 +217,7 @@ static void a_source_that_fails_is_not_ready_for_long(void)
 {
     const sim_t sim = lively(2);
     const uint32_t last = 40u * RATE_HZ;
-    for (int fault = 0; fault < FAULTS; ++fault) {
+    for (int fault = 0; fault < POSE_FAULTS; ++fault) {
         setUp();
         feed(&engine, &sim, 0, last + 1u);
         TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);

@@ -24,6 +24,7 @@ HELD_AXIS = ("3", "4", "5", "6", "10", "11", "12", "13")  # it is held still but
 INFORMATIVE = (*HELD_AXIS, *FREE_AXIS)
 RATES_HZ = (25.0, 40.0, 50.0, 60.0, 100.0, 128.0, 200.0)
 REST_RAD_S = 0.05  # both sensors below: the recording rests
+DEAD_S = 3.0  # the same for a component that dies: it takes motion to notice
 SETTLE_S = 1.0  # a verdict that was already on its way when a sensor froze may still arrive
 
 
@@ -306,7 +307,42 @@ def three_axes(rng: np.random.Generator) -> Case:
     return passage(rng, names, rng.uniform(10.0, 60.0)) if available(*names) else mixed_simulated(rng)
 
 
-# Class: function and number of runs of a full measurement; 10,000 together.
+def dead_component(rng: np.random.Generator) -> Case:
+    """One component of a gyroscope or an accelerometer is zero, stands at some value, or repeats another one; from the start, or late."""
+    case = real_or_simulated(rng)
+    index, is_gyr, part = int(rng.integers(2)), rng.random() < 0.5, int(rng.integers(3))
+    gyr, acc = (signal.copy() for signal in signals(case.rec, index))
+    signal = gyr if is_gyr else acc
+    kind = choose(rng, ("zero", "stuck", "repeats"))
+    begin = 0 if rng.random() < 0.7 else int(rng.integers(len(signal)))
+    stuck = {"zero": 0.0, "stuck": rng.uniform(-1.0, 1.0) * (1.0 if is_gyr else 9.0), "repeats": signal[begin:, (part + 1) % 3]}
+    signal[begin:, part] = stuck[kind]
+    if begin > 0:
+        case.after_s = begin / case.rec.rate_hz + DEAD_S
+    return with_sensor(case, index, gyr, acc, f"{'gyr' if is_gyr else 'acc'}{index + 1} component {part} {kind} from sample {begin}")
+
+
+def slow_degrees(rng: np.random.Generator) -> Case:
+    """Slow motion, rates in deg/s: in rad/s they would be those of usual motion."""
+    spec = replace(disturbed(rng, choose(rng, INFORMATIVE), rng.uniform(20.0, 60.0)), speed=10.0 ** rng.uniform(-2.0, -0.5))
+    return scaled(Case(simulate_hinge(spec), f"simulated, speed {spec.speed:.3f}"), 180.0 / np.pi, 1.0, which_sensors(rng))
+
+
+def glitch_then_clipped(rng: np.random.Generator) -> Case:
+    """Clipped rates, and early on one to three samples far beyond the limit."""
+    case = clipped_gyr(rng)
+    at_limit = [(np.abs(gyr) >= np.abs(gyr).max()).any(axis=1) for gyr in (case.rec.gyr1, case.rec.gyr2)]
+    case.after_s = float(case.rec.t_s[np.flatnonzero(at_limit[0] | at_limit[1])[0]] - case.rec.t_s[0])  # what came before is right
+    index, part = int(rng.integers(2)), int(rng.integers(3))
+    gyr, acc = (signal.copy() for signal in signals(case.rec, index))
+    begin = int(rng.integers(1, len(gyr) // 4))
+    factor = rng.uniform(1.2, 8.0)
+    count = 1 if rng.random() < 0.7 else int(rng.integers(2, 4))
+    gyr[begin:begin + count, part] = factor * np.abs(gyr).max() * rng.uniform(0.9, 1.0, count)
+    return with_sensor(case, index, gyr, acc, f"{count} wild from sample {begin}")
+
+
+# Class: function and number of runs of a full measurement.
 Classes = dict[str, tuple[Callable[[np.random.Generator], Case], int]]
 CLASSES: Classes = {
     "stiff": (stiff, 1200),
@@ -327,6 +363,9 @@ CLASSES: Classes = {
     "mix_sim": (mixed_simulated, 300),
     "shift": (shifted, 300),
     "three_axes": (three_axes, 200),
+    "dead": (dead_component, 600),
+    "deg_s_slow": (slow_degrees, 300),
+    "glitch_clip": (glitch_then_clipped, 300),
 }
 # Reported, not required: as far as the data go, this could be a hinge.
 REPORTED: Classes = {"mix_held": (mixed_held, 200)}
