@@ -32,7 +32,12 @@ if(NOT EXISTS ${unity_release})
     file(DOWNLOAD https://github.com/ThrowTheSwitch/Unity/archive/refs/tags/v2.6.1.tar.gz ${unity_release}.part
          STATUS unity_status TIMEOUT 60 INACTIVITY_TIMEOUT 10)
     list(GET unity_status 0 unity_status)
-    if(NOT unity_status EQUAL 0)
+    # What comes back from where there is no way to the release may be a page that says so.
+    set(unity_found "")
+    if(unity_status EQUAL 0)
+        file(SHA256 ${unity_release}.part unity_found)
+    endif()
+    if(NOT unity_found STREQUAL unity_sha256)
         message(WARNING "Unity is not to be had: no unit tests. tools/maintain/unity.sh fetches it, or set UNITY_ROOT.")
         return()
     endif()

@@ -24,8 +24,8 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
 TOOLS = Path(__file__).resolve().parent
 sys.path.insert(0, str(TOOLS / "python"))
 
-from jointcal_tools import native  # noqa: E402
-from jointcal_tools.measure.harness import Report, Settings, Skipped  # noqa: E402
+from jointcal_tools import native, native_two_dof  # noqa: E402
+from jointcal_tools.measure.harness import Incomplete, Report, Settings, Skipped, orientations_by  # noqa: E402
 
 MEASUREMENTS = {
     "rig": "whole rig recordings: accuracy, both engines, numpy",
@@ -90,8 +90,16 @@ def measure(name: str, settings: Settings, folder: Path) -> bool:
     """One measurement; True if all its requirements hold or it cannot be made here."""
     module = importlib.import_module(f"jointcal_tools.measure.{MODULES.get(name, name)}")
     report = Report(name, module.TITLE, command_line(name), native.version(), settings.quick)
+    need = getattr(module, "VQF", "")
     try:
+        if need:
+            report.source = orientations_by(need, native_two_dof.has_vqf(), settings.quick)
+        if "WITHOUT" in report.source:
+            print(f"{name}: the library was built{report.source[1:]}", file=sys.stderr)
         module.measure(settings, report)
+    except Incomplete as reason:
+        print(f"{name}: not measured: {reason}", file=sys.stderr)
+        return False
     except Skipped as reason:
         print(f"{name}: skipped, {reason}\n")
         return True

@@ -26,10 +26,10 @@ trap 'rm -rf "$work"' EXIT
 
 echo "Fetching VQF into $target"
 # pip asks the package itself for its metadata, for which it fetches the package's build tools into a folder of its own.
-python3 -m venv "$work/venv"
 echo "$package --hash=sha256:$archive_sha256" > "$work/requirements.txt"
 mkdir -p "$work/unpacked"
-if ! "$work/venv/bin/pip" --quiet --disable-pip-version-check download --no-deps --no-binary vqf --require-hashes \
+if ! python3 -m venv "$work/venv" ||
+    ! "$work/venv/bin/pip" --quiet --disable-pip-version-check download --no-deps --no-binary vqf --require-hashes \
         -r "$work/requirements.txt" -d "$work" ||
     ! echo "$archive_sha256  $work/$archive" | sha256sum --quiet --check - ||
     ! tar -xzf "$work/$archive" -C "$work/unpacked" --strip-components=3 --wildcards '*/vqf/cpp/vqf.[ch]pp' ||

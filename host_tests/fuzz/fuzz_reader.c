@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Any bytes as a recording: the reader ends, stays in bounds, and says where what is wrong. */
-#include "recording.h"
+#include "input/recording.h"
 
 #include <stdlib.h>
 #include <string.h>

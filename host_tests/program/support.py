@@ -13,11 +13,16 @@ from recordings import COLUMNS
 PROGRAM = str(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/host/jointcal").resolve())
 REJECT_KEYS = ["not_finite", "out_of_range", "saturated", "frozen", "repeated", "time_order", "gap"]
 KEYS = ["event", "t_s", "status", "engine", "weak", "hint", "reason", "axis1", "axis2", "uncertainty_deg",
-        "sign_margin", "samples", "rejected", "rejected_by"]
+        "sign_margin", "advice", "samples", "rejected", "rejected_by"]
 WINDOW_KEYS = KEYS[:11] + ["paper_accepted"] + KEYS[11:]
 CELLS = recordings.texts(recordings.hinge_rows(20))
 FILE = recordings.csv(CELLS)
 SHORT = recordings.csv(CELLS[:50])
+TWO_DOF_DEMO = pathlib.Path(__file__).resolve().parents[2] / "tools" / "demo" / "two_dof_demo.csv"
+# The program may be built without the filter that computes orientations.
+WITHOUT_FILTER = b"built without" in subprocess.run([PROGRAM, "two-dof", str(TWO_DOF_DEMO)], capture_output=True,
+                                                    check=False).stderr
+needs_filter = unittest.skipIf(WITHOUT_FILTER, "the program was built without VQF")
 
 
 def no_constants(name):

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* The program's reader, fed from memory: exact times, numbers, rows in pieces of any size, failing sources. */
-#include "csv.h"
-#include "number.h"
-#include "recording.h"
+#include "input/csv.h"
+#include "input/number.h"
+#include "input/recording.h"
 
 #include <unity.h>
 

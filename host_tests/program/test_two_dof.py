@@ -4,27 +4,23 @@ import json
 import math
 import os
 import pathlib
-import subprocess
 import unittest
 
 import recordings
-from support import PROGRAM, REJECT_KEYS, ProgramTest
+from support import REJECT_KEYS, TWO_DOF_DEMO, WITHOUT_FILTER, ProgramTest, needs_filter
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-DEMO = ROOT / "tools" / "demo" / "two_dof_demo.csv"
+DEMO = TWO_DOF_DEMO
 DATA = pathlib.Path(os.environ.get("JOINTCAL_DATA", ROOT / "data"))
 RIG = sorted(DATA.glob("rig_2D_*.csv"))
 KEYS = ["event", "t_s", "status", "engine", "weak", "hint", "reason", "axis1", "axis2", "uncertainty_deg",
-        "heading_offset_deg", "uncertainty_heading_deg", "carrying_angle_deg", "samples", "rejected", "rejected_by"]
+        "heading_offset_deg", "uncertainty_heading_deg", "carrying_angle_deg", "advice", "samples", "rejected", "rejected_by"]
 COLUMNS = recordings.COLUMNS + recordings.ORIENTATION_COLUMNS
 RAW = recordings.COLUMNS
 ROWS = recordings.two_dof_rows(30)
 CELLS = recordings.texts(ROWS)
 FILE = recordings.csv(CELLS, COLUMNS)
 DEMO_CELLS = [line.split(",") for line in DEMO.read_text().splitlines()[1:]]
-WITHOUT_FILTER = b"built without" in subprocess.run([PROGRAM, "two-dof", str(DEMO)], capture_output=True,
-                                                    check=False).stderr
-needs_filter = unittest.skipIf(WITHOUT_FILTER, "the program was built without VQF")
 
 
 def angle_deg(a, b):

@@ -10,8 +10,10 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools" / "python"))
 
-from jointcal_tools.measure import faults, never  # noqa: E402
-from jointcal_tools.measure.harness import Report, binomial_quantile, numbered, quantile  # noqa: E402
+from jointcal_tools import ols17  # noqa: E402
+from jointcal_tools.measure import center_vectors, faults, never, qmt_reference  # noqa: E402
+from jointcal_tools.measure.harness import (Incomplete, Report, binomial_quantile, numbered, orientations_by,  # noqa: E402
+                                            quantile)
 from jointcal_tools.measure.judge import Verdict, line_angle_deg  # noqa: E402
 
 
@@ -66,6 +68,63 @@ class HarnessTest(unittest.TestCase):
         self.assertEqual(numbered({"a": 2, "b": 1}, None), [("a", 0), ("a", 1), ("b", 0)])
         self.assertEqual(numbered({"a": 2, "b": 1}, "a"), [("a", 0), ("a", 1)])
         self.assertEqual(numbered({"a": 2, "b": 1}, "b:7"), [("b", 7)])
+
+
+    def test_a_full_measurement_without_vqf_is_none(self):
+        self.assertEqual(orientations_by("LS", True, False), ", orientations by VQF")
+        self.assertIn("WITHOUT VQF: LS", orientations_by("LS", False, True))
+        with self.assertRaisesRegex(Incomplete, "LS needs: tools/vqf.sh"):
+            orientations_by("LS", False, False)
+
+    def test_head_says_where_orientations_come_from(self):
+        report = Report("x", "X", "command", "0", source=orientations_by("LS", True, False))
+        self.assertIn("library version 0, orientations by VQF.", report.markdown())
+
+
+class QmtStartsTest(unittest.TestCase):
+    def test_every_draw_has_the_own_start_and_no_start_twice(self):
+        self.assertEqual(qmt_reference.starts()[0].tolist(), [0.0] * 4)
+        for draw in qmt_reference.draws():
+            self.assertEqual((draw[0], len(set(draw))), (0, qmt_reference.STARTS))
+
+    def test_starts_are_spread_over_the_sphere(self):
+        inclination = qmt_reference.starts()[1:, [0, 2]].ravel()
+        self.assertLess(abs(np.sin(inclination).mean()), 0.15)  # uniform in the sine: standard deviation 0.05
+        self.assertAlmostEqual(np.sin(inclination).std(), 3.0**-0.5, delta=0.1)
+
+    def test_what_costs_least_is_taken(self):
+        self.assertEqual(qmt_reference.cheapest([(1, 1, 3.0), (2, 2, 1.0), (3, 3, np.inf)])[0], 2)
+
+
+class VectorsTest(unittest.TestCase):
+    """The float64 fit behind the table that says why LS is never ready."""
+
+    R = np.array([-0.12, 0.01, 0.02, 0.15, -0.01, 0.02])
+
+    def samples(self, tilt_rad: float) -> ols17.Samples:
+        """Exact samples in two earth frames 40 deg apart; sensor 1's is tilted about x."""
+        rng = np.random.default_rng(7)
+        turn = [ols17.rotation(rng.normal(0.0, 2.0, (400, 3))) for _ in range(2)]
+        k = [turn[i] @ ols17.k_matrix(rng.normal(0.0, 2.0, (400, 3)), rng.normal(0.0, 10.0, (400, 3))) for i in range(2)]
+        a0 = rng.normal(0.0, 1.0, (400, 3)) + [0.0, 0.0, 9.81]
+        tilt = ols17.rotation(np.array([[tilt_rad, 0.0, 0.0]]))[0]
+        to2 = center_vectors.heading_matrix(np.radians(-40.0))
+        a = [(a0 + k[0] @ self.R[:3]) @ tilt.T, (a0 + k[1] @ self.R[3:]) @ to2.T]
+        return ols17.Samples(0.02 * np.arange(400.0), a[0], tilt @ k[0], tilt @ turn[0], a[1], to2 @ k[1], to2 @ turn[1])
+
+    def test_exact_samples_leave_nothing(self):
+        left = center_vectors.solve(self.samples(0.0), self.R + 0.01)
+        np.testing.assert_allclose(left.places.ravel(), self.R, atol=1e-6)
+        self.assertLess(left.misfit, 1e-6)
+        self.assertAlmostEqual(left.hidden_mm, 2.0, places=3)
+
+    def test_a_degree_of_tilt_is_gravity_in_the_horizontal_only(self):
+        left = center_vectors.solve(self.samples(np.radians(1.0)), self.R)
+        self.assertAlmostEqual(left.horizontal, 9.81 * np.radians(1.0) / 2.0**0.5, delta=0.01)  # in one of two components
+        self.assertLess(left.vertical, 0.03)
+        self.assertGreater(left.lasting, 0.5)
+        slow_left_out = center_vectors.solve(self.samples(np.radians(1.0)), self.R, slow_rows=51)
+        self.assertLess(slow_left_out.horizontal, 0.05)
 
 
 class FaultsTest(unittest.TestCase):

@@ -13,6 +13,9 @@
 extern "C" {
 #endif
 
+/// The bound of a place of which nothing is known, m.
+#define JCAL_BOUND_UNKNOWN_M 10.0f
+
 /// The head of a result.
 typedef struct {
     jcal_calibration_t status;

@@ -29,16 +29,15 @@
 extern "C" {
 #endif
 
-/// The bound of something of which nothing is known: a right angle, the largest angle between two lines, rad.
-#define JCAL_BOUND_UNKNOWN_RAD 1.57079633f
-
 /// What both hinge engines say.
 typedef struct {
     jcal_head_t head;
     bool has_axes;        ///< False until there is any estimate; then axis1, axis2 are zero.
     bool paper_accepted;  ///< Window engine: what Algorithm 4 of [OLS20] says. Stream engine: false.
-    jcal_vec3_t axis1;    ///< Unit joint axis in sensor frame 1; its largest component is positive.
-    jcal_vec3_t axis2;    ///< Unit joint axis in sensor frame 2, sign following the pairing.
+    /// Unit joint axis in sensor frame 1. Its sign follows axis1_toward of the config, or makes the largest component positive; once
+    /// `ready` it stays as it is until `moved`.
+    jcal_vec3_t axis1;
+    jcal_vec3_t axis2;  ///< Unit joint axis in sensor frame 2, sign following the pairing.
     /// 95 % bound of the angle between axis1 and the truth; JCAL_BOUND_UNKNOWN_RAD if unknown.
     float uncertainty1_rad;
     float uncertainty2_rad;  ///< The same for axis2.

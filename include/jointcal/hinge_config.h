@@ -5,10 +5,14 @@
 #define JCAL_HINGE_CONFIG_H
 
 #include "jointcal/gate.h"
+#include "jointcal/types.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/// The bound of something of which nothing is known: a right angle, the largest angle between two lines, rad.
+#define JCAL_BOUND_UNKNOWN_RAD 1.57079633f
 
 /// What the user knows about the sign pairing beforehand.
 typedef enum {
@@ -39,6 +43,9 @@ typedef struct {
                                  ///< Range [1e-5, 0.2], default 0.007 (0.4 deg/s). 1e-5 turns the bias states off.
     float acc_bias_m_s2;         ///< The same of an accelerometer, m/s^2. Range [1e-4, 5], default 0.5.
     jcal_sign_hint_t sign_hint;  ///< Default JCAL_SIGN_UNKNOWN.
+    /// A direction in sensor frame 1, of any length: axis1 is reported with the sign that makes axis1 . axis1_toward positive. Zeros,
+    /// the default: its largest component is positive. Both hold until `ready`; then the sign stays. Components in [-1e6, 1e6].
+    jcal_vec3_t axis1_toward;
     /// Slices of work per second of sample time, a quarter of it once `ready`; at most 10 in one step. Range [20, 800], default
     /// 200. Fewer: less work in the busiest step, longer until `ready`; docs/METHOD.md, section 8, has the measured trade.
     float slices_per_s;

@@ -75,7 +75,8 @@ jcal_status_t jcal_frames_two_dof(jcal_vec3_t axis1, jcal_vec3_t axis2, jcal_joi
 /// Orientation of B2 relative to B1: rotates from B2 to B1.
 ///
 /// Inputs:   q_s1_e1, q_s2_e2  unit quaternions of the sensors; heading_rad  turns E2 to E1 about z, at most 1000 rad.
-/// Returns:  a unit quaternion.
+/// Returns:  a unit quaternion; four NaN if frames is null, the length of a quaternion differs from 1 by more than 0.05, or
+///           the heading is not finite or too large.
 /// Source:   [LAI22] eq. (6), (21).
 /// Threads:  no state.
 jcal_quat_t jcal_joint_orientation(const jcal_joint_frames_t *frames, jcal_quat_t q_s1_e1, jcal_quat_t q_s2_e2,
@@ -83,13 +84,13 @@ jcal_quat_t jcal_joint_orientation(const jcal_joint_frames_t *frames, jcal_quat_
 
 /// Flexion of a hinge: the part of the rotation that is about z. What is left, errors of axes or heading, is ignored.
 ///
-/// A rotation by exactly half a turn about an axis across z has no such part; it gives 0.
+/// A rotation by exactly half a turn about an axis across z has no such part; it gives 0. NaN gives NaN.
 /// Threads:  no state.
 jcal_joint_angles_t jcal_hinge_angles(jcal_quat_t q_b2_b1);
 
 /// z-x'-y'' Euler angles: flexion, carrying angle, pronation.
 ///
-/// Where the axes are parallel (carrying angle of +-90 deg, to 1e-3 rad) only a sum is known: all of it is called flexion.
+/// Where the axes are parallel (carrying angle of +-90 deg, to 1e-3 rad) only a sum is known: all of it is called flexion. NaN gives NaN.
 /// Source:   [LAI22] eq. (22)-(24). Differs from the paper in: (23) prints q3 where q_z is meant; arcsin by way of the cosine, which
 ///           keeps its accuracy near 90 deg.
 /// Threads:  no state.
@@ -99,6 +100,7 @@ jcal_joint_angles_t jcal_two_dof_angles(jcal_quat_t q_b2_b1);
 ///
 /// With a pose: `is` are the angles in it, `shall` the true ones (all 0, or known ones). With the range of motion:
 /// `is` is the end of a jcal_angle_range_t, `shall` what the joint has there. Carrying angles do not count: nothing changes them.
+/// Frames stay as they are if a pointer is null or a difference of angles is not finite or beyond 1000 rad.
 /// Source:   [LAI22] eq. (25), (26).
 /// Threads:  no state.
 void jcal_frames_zero(jcal_joint_frames_t *frames, const jcal_joint_angles_t *is, const jcal_joint_angles_t *shall);
@@ -113,16 +115,16 @@ jcal_joint_angles_t jcal_angles_signed(jcal_joint_angles_t angles, jcal_positive
 /// Threads:  no state.
 jcal_vec3_t jcal_axis_toward(jcal_vec3_t axis, jcal_vec3_t direction);
 
-/// Nothing seen yet.
-/// Threads:  no state.
+/// Nothing seen yet. Null: does nothing.
+/// Threads:  one task for one range.
 void jcal_angle_range_reset(jcal_angle_range_t *self);
 
-/// Takes in the next value; one that is not finite or beyond 1000 rad is left out. Cost: constant.
-/// Threads:  no state.
+/// Takes in the next value; one that is not finite or beyond 1000 rad is left out. Null: does nothing. Cost: constant.
+/// Threads:  one task for one range.
 void jcal_angle_range_push(jcal_angle_range_t *self, float angle_rad);
 
-/// +1 if the axis of this angle has the sign that makes its mean positive, -1 if it is the other one, 0 if that is open: no values, or
-/// a mean within 5 % of the range from zero.
+/// +1 if the axis of this angle has the sign that makes its mean positive, -1 if it is the other one, 0 if that is open: null, no
+/// values, or a mean within 5 % of the range from zero.
 ///
 /// Zero must have been set before (jcal_frames_zero): full extension for flexion, full supination for pronation. For a
 /// hinge both axes change their signs together.

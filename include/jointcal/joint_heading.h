@@ -40,7 +40,8 @@ JCAL_MUST_CHECK jcal_status_t jcal_joint_heading_two_dof(jcal_joint_heading_t *s
 JCAL_MUST_CHECK jcal_status_t jcal_joint_heading_improve(jcal_joint_heading_t *self, jcal_vec3_t axis1,
                                                          jcal_vec3_t axis2, float carrying_rad);
 
-/// Takes in one pair and solves. A pair that is not finite, or whose time does not increase, is left out.
+/// Takes in one pair and solves. A pair is left out if a quaternion is not finite or its length differs from 1 by more than 0.05, or
+/// if its time does not increase.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED; JCAL_ERR_ARG (null).
 /// Cost:     constant: about 100 operations for a hinge, 1,000 for two axes.

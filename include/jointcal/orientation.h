@@ -9,6 +9,7 @@
 
 #include "jointcal/gate.h"
 #include "jointcal/private/orientation.h"
+#include "jointcal/status.h"
 #include "jointcal/types.h"
 
 #ifdef __cplusplus
@@ -23,6 +24,10 @@ extern "C" {
 /// Threads:  one caller at a time; inside push it is push.
 jcal_reject_t jcal_orientation_gate_check(jcal_orientation_gate_t *self, const jcal_gate_config_t *config,
                                           const jcal_orientation_pair_t *pair);
+
+/// What is wrong with the stream as a whole: JCAL_REASON_NONE or _BAD_SAMPLES, when more than a fifth of the last 50 or so were bad:
+/// not finite, of a wrong length, out of order, after a gap, frozen or repeated.
+jcal_reason_t jcal_orientation_gate_complaint(const jcal_orientation_gate_t *self);
 
 #ifdef __cplusplus
 }

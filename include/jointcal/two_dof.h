@@ -31,9 +31,11 @@ extern "C" {
 /// What both engines say.
 typedef struct {
     jcal_head_t head;
-    bool has_axes;             ///< False until there is any estimate; then axes, heading and carrying angle are zero.
-    jcal_vec3_t axis1;         ///< Unit axis j1 in sensor frame 1; its largest component is positive.
-    jcal_vec3_t axis2;         ///< Unit axis j2 in sensor frame 2; its largest component is positive.
+    bool has_axes;  ///< False until there is any estimate; then axes, heading and carrying angle are zero.
+    /// Unit axis j1 in sensor frame 1. It points towards axis1_toward of the config, or else its largest component is positive; once
+    /// the status is `ready` it stays as it is then, until `moved`.
+    jcal_vec3_t axis1;
+    jcal_vec3_t axis2;         ///< Unit axis j2 in sensor frame 2, its sign likewise and separately.
     float heading_offset_rad;  ///< delta, in (-pi, pi]: turns earth frame 2 to earth frame 1 about z.
     float carrying_angle_rad;  ///< beta0: j1 . j2 = sin(beta0) in a common frame.
     /// 95 % bound of the angle between axis1 and the truth; a right angle if unknown, as while other axes explain the data as well.

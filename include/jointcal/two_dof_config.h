@@ -35,6 +35,10 @@ typedef struct {
     /// How long the heading offset is remembered once the status is `ready`, s: older data count for the axes only. Range [2, 600],
     /// default 5.
     float memory_s;
+    /// Where the reported axes shall point, in sensor frames 1 and 2, of any length, each in the half-space around its direction. Zero
+    /// (default): its largest component is positive. Components of at most 1e6.
+    jcal_vec3_t axis1_toward;
+    jcal_vec3_t axis2_toward;
 } jcal_two_dof_config_t;
 
 /// Settings of the window engine. Start from jcal_two_dof_window_config_default().

@@ -6,7 +6,9 @@
 #include "jointcal/quat.h"
 #include "math/angle.h"
 #include "math/sphere.h"
+#include "sample/unit.h"
 
+#include <math.h>
 #include <stddef.h>
 
 /// Cosine of the carrying angle below which the two axes count as parallel.
@@ -14,6 +16,12 @@
 
 /// A mean angle below this share of the range says nothing about the sign.
 #define OPEN_SHARE 0.05f
+
+/* False for NaN and for angles whose sine has no digits left. */
+static bool can_be_turned_by(float angle_rad)
+{
+    return fabsf(angle_rad) <= JCAL_CIS_MAX_RAD;
+}
 
 /* The rotation by `angle_rad` about z. */
 static jcal_quat_t about_z(float angle_rad)
@@ -88,6 +96,9 @@ jcal_status_t jcal_frames_two_dof(jcal_vec3_t axis1, jcal_vec3_t axis2, jcal_joi
 jcal_quat_t jcal_joint_orientation(const jcal_joint_frames_t *frames, jcal_quat_t q_s1_e1, jcal_quat_t q_s2_e2,
                                    float heading_rad)
 {
+    if ((frames == NULL) || !jcal_is_unit(q_s1_e1) || !jcal_is_unit(q_s2_e2) || !can_be_turned_by(heading_rad)) {
+        return jcal_quat(NAN, NAN, NAN, NAN); /* an angle of 0 would look like a measurement */
+    }
     const jcal_quat_t q_b1_e1 = jcal_quat_mul(q_s1_e1, frames->q_b1_s1);
     const jcal_quat_t q_b2_e2 = jcal_quat_mul(q_s2_e2, frames->q_b2_s2);
     const jcal_quat_t q_b2_e1 = jcal_quat_mul(about_z(heading_rad), q_b2_e2);
@@ -126,8 +137,16 @@ jcal_joint_angles_t jcal_two_dof_angles(jcal_quat_t q_b2_b1)
 
 void jcal_frames_zero(jcal_joint_frames_t *frames, const jcal_joint_angles_t *is, const jcal_joint_angles_t *shall)
 {
-    const jcal_quat_t turn1 = about_z(is->flexion_rad - shall->flexion_rad);     /* (25) */
-    const jcal_quat_t turn2 = about_y(shall->pronation_rad - is->pronation_rad); /* (26) */
+    if ((frames == NULL) || (is == NULL) || (shall == NULL)) {
+        return;
+    }
+    const float flexion_rad = is->flexion_rad - shall->flexion_rad;       /* (25) */
+    const float pronation_rad = shall->pronation_rad - is->pronation_rad; /* (26) */
+    if (!can_be_turned_by(flexion_rad) || !can_be_turned_by(pronation_rad)) {
+        return;
+    }
+    const jcal_quat_t turn1 = about_z(flexion_rad);
+    const jcal_quat_t turn2 = about_y(pronation_rad);
     frames->q_b1_s1 = jcal_quat_normalise(jcal_quat_mul(frames->q_b1_s1, turn1));
     frames->q_b2_s2 = jcal_quat_normalise(jcal_quat_mul(frames->q_b2_s2, turn2));
 }
@@ -151,12 +170,14 @@ jcal_vec3_t jcal_axis_toward(jcal_vec3_t axis, jcal_vec3_t direction)
 void jcal_angle_range_reset(jcal_angle_range_t *self)
 {
     const jcal_angle_range_t empty = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0u};
-    *self = empty;
+    if (self != NULL) {
+        *self = empty;
+    }
 }
 
 void jcal_angle_range_push(jcal_angle_range_t *self, float angle_rad)
 {
-    if (!(fabsf(angle_rad) <= JCAL_CIS_MAX_RAD)) {
+    if ((self == NULL) || !can_be_turned_by(angle_rad)) {
         return;
     }
     const float wrapped = jcal_angle_wrap(angle_rad);
@@ -177,7 +198,8 @@ void jcal_angle_range_push(jcal_angle_range_t *self, float angle_rad)
 
 int jcal_axis_sign_by_range(const jcal_angle_range_t *range)
 {
-    if ((range->count == 0u) || (fabsf(range->mean_rad) <= (OPEN_SHARE * (range->high_rad - range->low_rad)))) {
+    if ((range == NULL) || (range->count == 0u) ||
+        (fabsf(range->mean_rad) <= (OPEN_SHARE * (range->high_rad - range->low_rad)))) {
         return 0;
     }
     return (range->mean_rad > 0.0f) ? 1 : -1;

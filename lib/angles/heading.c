@@ -16,6 +16,7 @@
 #include "math/plane.h"
 #include "math/scalar.h"
 #include "sample/clock.h"
+#include "sample/unit.h"
 
 #include <stddef.h>
 
@@ -193,15 +194,15 @@ jcal_status_t jcal_joint_heading_push(jcal_joint_heading_t *self, const jcal_ori
     if ((self == NULL) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
-    const jcal_vec3_t a = jcal_quat_rotate(pair->q1, self->axis1);
-    const jcal_vec3_t b = jcal_quat_rotate(pair->q2, self->axis2);
-    if (!jcal_vec3_is_finite(a) || !jcal_vec3_is_finite(b)) {
-        return JCAL_REJECTED;
+    if (!jcal_is_unit(pair->q1) || !jcal_is_unit(pair->q2)) {
+        return JCAL_REJECTED; /* the sums would not forget a long one for hours, and zeros are no orientation */
     }
     float since_s;
     if (jcal_clock_check(&self->clock, GAP_MAX_S, pair->t_us, &since_s) != JCAL_REJECT_NONE) {
         return JCAL_REJECTED;
     }
+    const jcal_vec3_t a = jcal_quat_rotate(jcal_quat_normalise(pair->q1), self->axis1);
+    const jcal_vec3_t b = jcal_quat_rotate(jcal_quat_normalise(pair->q2), self->axis2);
     const bool goes_on = self->has_time && (pair->t_us > self->t_us);
     const float dt_s = goes_on ? ((float)(pair->t_us - self->t_us) * MICROSECONDS) : COUNT_FIRST_S;
     add(self, a, b, dt_s);

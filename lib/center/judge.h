@@ -10,7 +10,9 @@
 #ifndef JCAL_CENTER_JUDGE_H
 #define JCAL_CENTER_JUDGE_H
 
-#include "jointcal/center.h"
+#include "jointcal/center_config.h"
+#include "jointcal/head.h"
+#include "jointcal/private/center/judge.h"
 
 /// Slices of the work: the sums' matrix, its factor, three pairs of columns of the inverse, six rows of two covariances, doubts, two
 /// bounds, the verdict.
@@ -31,9 +33,5 @@ void jcal_center_solve(const jcal_center_config_t *cfg, jcal_center_work_t *self
 
 /// Bounds and status before there is an estimate.
 void jcal_center_verdict_begin(jcal_center_verdict_t *verdict, jcal_calibration_t status);
-
-/// out <- what is known; engine and time are the engine's to add.
-void jcal_center_report(const jcal_center_config_t *cfg, const jcal_center_work_t *work,
-                        const jcal_center_input_t *input, bool has_point, jcal_center_result_t *out);
 
 #endif /* JCAL_CENTER_JUDGE_H */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Stream engine of the joint centre: config, samples into sums, and the schedule of the work.
+/// Stream engine of the joint centre: samples into sums, and the schedule of the work.
 #include "jointcal/center.h"
 
 #include "center/input.h"
@@ -53,73 +53,6 @@
 typedef char jcal_center_fits_its_budget
     [((sizeof(jcal_center_t) - (JCAL_INBOX_CAPACITY * SLOT_BYTES)) <= (5120u - (4u * SLOT_BYTES))) ? 1 : -1];
 
-jcal_center_config_t jcal_center_config_default(void)
-{
-    const jcal_center_config_t config = {
-        .gate = jcal_gate_config_default(),
-        .method = JCAL_CENTER_SS,
-        .kinematics = {.derivative = JCAL_DERIVATIVE_FIVE_POINT, .smoothing_s = 0.12f},
-        .max_bound_m = 0.01f,
-        .mismatch_m = 0.002f,
-        .acc_noise_m_s2 = 0.05f,
-        .turn_error = 0.01f,
-        .acc_bias_m_s2 = 0.3f,
-        .min_rate_rad_s = 0.0f,
-        .memory_s = 300.0f,
-    };
-    return config;
-}
-
-typedef struct {
-    const char *name;
-    float value, low, high;
-} field_t;
-
-/// True for a unit vector or zero.
-static bool is_axis(jcal_vec3_t v)
-{
-    const float square = jcal_vec3_dot(v, v);
-    return (square == 0.0f) || jcal_within(square, 0.99f, 1.01f);
-}
-
-const char *jcal_center_config_check(const jcal_center_config_t *config)
-{
-    if (config == NULL) {
-        return "config";
-    }
-    const field_t fields[] = {
-        {"max_bound_m", config->max_bound_m, 0.001f, 0.1f},
-        {"mismatch_m", config->mismatch_m, 0.0f, 0.05f},
-        {"acc_noise_m_s2", config->acc_noise_m_s2, 1e-3f, 10.0f},
-        {"turn_error", config->turn_error, 0.0f, 0.5f},
-        {"acc_bias_m_s2", config->acc_bias_m_s2, 0.0f, 2.0f},
-        {"min_rate_rad_s", config->min_rate_rad_s, 0.0f, 20.0f},
-        {"smoothing_s", config->kinematics.smoothing_s, 0.0f, 2.0f},
-        {"memory_s", config->memory_s, 10.0f, 3600.0f},
-    };
-    for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
-        if (!jcal_within(fields[i].value, fields[i].low, fields[i].high)) {
-            return fields[i].name;
-        }
-    }
-    const int method = (int)config->method;
-    if ((method < (int)JCAL_CENTER_SS) || (method > (int)JCAL_CENTER_LS)) {
-        return "method";
-    }
-    const int derivative = (int)config->kinematics.derivative;
-    if ((derivative < (int)JCAL_DERIVATIVE_FIVE_POINT) || (derivative > (int)JCAL_DERIVATIVE_SYMMETRIC)) {
-        return "derivative";
-    }
-    if (!is_axis(config->hinge_axis1)) {
-        return "hinge_axis1";
-    }
-    if (!is_axis(config->hinge_axis2) || ((jcal_vec3_dot(config->hinge_axis1, config->hinge_axis1) > 0.0f) !=
-                                          (jcal_vec3_dot(config->hinge_axis2, config->hinge_axis2) > 0.0f))) {
-        return "hinge_axis2";
-    }
-    return jcal_gate_config_check(&config->gate);
-}
-
 /// Forgets what was learnt of the joint.
 static void begin_anew(jcal_center_t *self, jcal_calibration_t status)
 {
@@ -157,9 +90,15 @@ jcal_status_t jcal_center_reset(jcal_center_t *self)
     return (self == NULL) ? JCAL_ERR_ARG : jcal_center_init(self, &self->cfg);
 }
 
+/// False for null and for what init has never prepared: all zero, say.
+static bool is_prepared(const jcal_center_t *self)
+{
+    return (self != NULL) && (self->cfg.memory_s > 0.0f);
+}
+
 jcal_status_t jcal_center_push(jcal_center_t *self, const jcal_pair_t *pair)
 {
-    if ((self == NULL) || (pair == NULL) || (self->cfg.method == JCAL_CENTER_LS)) {
+    if (!is_prepared(self) || (pair == NULL) || (self->cfg.method == JCAL_CENTER_LS)) {
         return JCAL_ERR_ARG;
     }
     return jcal_center_input_push(&self->input, &self->cfg, pair, NULL);
@@ -167,7 +106,7 @@ jcal_status_t jcal_center_push(jcal_center_t *self, const jcal_pair_t *pair)
 
 jcal_status_t jcal_center_push_oriented(jcal_center_t *self, const jcal_pair_t *pair, const jcal_attitudes_t *attitudes)
 {
-    if ((self == NULL) || (pair == NULL) || (attitudes == NULL)) {
+    if (!is_prepared(self) || (pair == NULL) || (attitudes == NULL)) {
         return JCAL_ERR_ARG;
     }
     return jcal_center_input_push(&self->input, &self->cfg, pair, attitudes);
@@ -358,7 +297,7 @@ static void work_at_point(jcal_center_t *self)
 
 jcal_status_t jcal_center_step(jcal_center_t *self)
 {
-    if (self == NULL) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
     jcal_kinematic_t sample;

@@ -96,17 +96,17 @@ static void collect(const jcal_center_t *joint, bool is_hip, jcal_chain_state_t 
     }
 }
 
-bool jcal_chain_collect(const jcal_chain_t *self, jcal_chain_state_t *state)
+bool jcal_chain_collect(const jcal_center_t *hip, const jcal_center_t *knee, jcal_chain_state_t *state)
 {
-    const jcal_center_verdict_t *const hip = &self->hip.work.verdict;
-    const jcal_center_verdict_t *const knee = &self->knee.work.verdict;
-    const float worst = jcal_max(jcal_max(hip->bound1_m, hip->bound2_m), jcal_max(knee->bound1_m, knee->bound2_m));
-    if (!(worst < BOUND_MAX_M) || !self->hip.work.as.inverse.is_factored || !self->knee.work.as.inverse.is_factored) {
+    const jcal_center_verdict_t *const a = &hip->work.verdict;
+    const jcal_center_verdict_t *const b = &knee->work.verdict;
+    const float worst = jcal_max(jcal_max(a->bound1_m, a->bound2_m), jcal_max(b->bound1_m, b->bound2_m));
+    if (!(worst < BOUND_MAX_M) || !hip->work.as.inverse.is_factored || !knee->work.as.inverse.is_factored) {
         return false;
     }
     jcal_clear(state, sizeof *state);
-    collect(&self->hip, true, state);
-    collect(&self->knee, false, state);
+    collect(hip, true, state);
+    collect(knee, false, state);
     return true;
 }
 

@@ -8,7 +8,8 @@
 #ifndef JCAL_CHAIN_TIE_H
 #define JCAL_CHAIN_TIE_H
 
-#include "jointcal/chain.h"
+#include "jointcal/chain_config.h"
+#include "jointcal/private/center/stream.h"
 
 #define JCAL_CHAIN_STATES 18u
 
@@ -28,7 +29,7 @@ typedef struct {
 
 /// state <- what both joints know, each by itself. Covariances are scaled to the bounds that the joints state. False if a joint has no
 /// bound for one of its vectors: there is nothing to tie then.
-bool jcal_chain_collect(const jcal_chain_t *self, jcal_chain_state_t *state);
+bool jcal_chain_collect(const jcal_center_t *hip, const jcal_center_t *knee, jcal_chain_state_t *state);
 
 /// Takes in that slope . x is `apart` less than it should be, with a standard deviation. False, and nothing changed, if that contradicts
 /// what is known. Cost: 18^2 * 2 multiply-adds.

@@ -5,7 +5,23 @@
 #ifndef JCAL_HINGE_BLOCK_H
 #define JCAL_HINGE_BLOCK_H
 
-#include "hinge/refine.h"
+#include "jointcal/hinge_config.h"
+#include "jointcal/private/hinge/refine.h"
+
+/// Unknowns: 4 tilts, rad, then 4 biases across the axes, in standard deviations.
+#define JCAL_HINGE_UNKNOWNS 8u
+
+/// Duration that counts as one independent reading: sets the unit of the cost, s.
+#define JCAL_HINGE_UNIT_S 0.05f
+
+/// One sample with what the sums need of it.
+typedef struct {
+    jcal_vec3_t w1, w2;  ///< Rates, rad/s.
+    jcal_vec3_t a1, a2;  ///< Specific forces, m/s^2.
+    float w1_2, w2_2;    ///< |w1|^2, |w2|^2.
+    float dt_s;          ///< Time that the sample stands for.
+    float acc_weight;    ///< Weight of (25), integrated over dt.
+} jcal_hinge_sample_t;
 
 /// The phase stands behind the unknowns; it is eliminated when the block closes.
 #define JCAL_HINGE_BLOCK_PHASE JCAL_HINGE_UNKNOWNS

@@ -3,6 +3,7 @@
 /// 95 % bounds of the two axes. See hinge/bounds.h.
 #include "hinge/bounds.h"
 
+#include "hinge/model.h"
 #include "hinge/refine.h"
 #include "math/chol.h"
 #include "math/eig.h"
@@ -62,12 +63,9 @@ typedef struct {
 ///
 /// `prior` weighs the prior of the biases: where the real scatter is so many times the assumed one, the prior counts so much more
 /// beside the sums.
-static bool inform(const jcal_hinge_t *self, float prior, information_t *out)
+static bool inform(const jcal_hinge_refine_t *refine, const jcal_hinge_lin_t *acc, float prior, information_t *out)
 {
-    const jcal_hinge_refine_t *const refine = &self->refine;
-    jcal_hinge_lin_t acc;
-    jcal_hinge_linearise_acc(&self->moments, &self->cfg, &refine->point, &acc);
-    const float trust = 1.0f / (1.0f + (ACC_SYSTEMATIC * acc.cost_acc));
+    const float trust = 1.0f / (1.0f + (ACC_SYSTEMATIC * acc->cost_acc));
     float biases[10];
     for (unsigned i = 0u; i < TILTS; ++i) {
         for (unsigned k = 0u; k <= i; ++k) {
@@ -91,10 +89,10 @@ static bool inform(const jcal_hinge_t *self, float prior, information_t *out)
             for (unsigned m = 0u; m < TILTS; ++m) {
                 sum -= column[m] * refine->matrix[jcal_sym_at(TILTS + m, k)];
             }
-            out->all[at] = sum + acc.matrix[at];
-            out->sure[at] = sum + (trust * acc.matrix[at]);
+            out->all[at] = sum + acc->matrix[at];
+            out->sure[at] = sum + (trust * acc->matrix[at]);
         }
-        out->sure[jcal_sym_at(i, i)] -= (PRETENDED_SHARE * refine->cost) + (trust * acc.cost_acc);
+        out->sure[jcal_sym_at(i, i)] -= (PRETENDED_SHARE * refine->cost) + (trust * acc->cost_acc);
     }
     return true;
 }
@@ -110,10 +108,10 @@ static float radius(const float covariance[3])
 }
 
 /// True if a segment has turned about its axis long enough for its rates, and not another sensor's readings, to show it.
-static bool has_turned(const jcal_hinge_t *self, unsigned axis)
+static bool has_turned(const jcal_hinge_refine_t *refine, const jcal_hinge_config_t *cfg, unsigned axis)
 {
-    const float noise = self->cfg.gyr_noise_rad_s;
-    return (self->refine.along[axis] * noise * noise * JCAL_HINGE_UNIT_S) > TURNED_MIN;
+    const float noise = cfg->gyr_noise_rad_s;
+    return (refine->along[axis] * noise * noise * JCAL_HINGE_UNIT_S) > TURNED_MIN;
 }
 
 /// The bound, made wider where a tilt by it changes the rate across the axis too much for linear sums.
@@ -146,10 +144,8 @@ static float mean_scatter(const jcal_hinge_refine_t *refine)
 
 /// What does not average out, as a power beside the scatter: a mismatch of the rates by a share of |w| may act alike in every
 /// sample. It then moves axis i by at most sum |l_i| |w| / sum l_i^2 times that share.
-static void find_systematic(const jcal_hinge_t *self, float of_axis[2])
+static void find_systematic(const jcal_hinge_refine_t *refine, float mismatch, float of_axis[2])
 {
-    const jcal_hinge_refine_t *const refine = &self->refine;
-    const float mismatch = self->cfg.rate_mismatch;
     for (unsigned axis = 0u; axis < 2u; ++axis) {
         const float power = refine->lever[axis] * refine->lever[axis] / jcal_max(refine->along[axis], 1e-20f);
         of_axis[axis] = mismatch * mismatch * power / (ONE_DIRECTION + SECOND_DIRECTION);
@@ -161,21 +157,26 @@ static float of_axes(const float of_axis[2], const float v[TILTS])
     return (of_axis[0] * ((v[0] * v[0]) + (v[1] * v[1]))) + (of_axis[1] * ((v[2] * v[2]) + (v[3] * v[3])));
 }
 
-bool jcal_hinge_bounds(const jcal_hinge_t *self, jcal_hinge_bounds_t *out)
+bool jcal_hinge_bounds(const jcal_hinge_refine_t *refine, const jcal_hinge_moments_t *moments,
+                       const jcal_hinge_config_t *cfg, jcal_hinge_bounds_t *out)
 {
-    const jcal_hinge_refine_t *const refine = &self->refine;
     const float blocks = jcal_hinge_refine_blocks(refine);
     const float noise = jcal_hinge_refine_noise(refine);
     const float pull = jcal_hinge_refine_pull(refine);
     information_t information;
     float values[TILTS];
     float vectors[TILTS * TILTS];
-    if (!(refine->blocks >= BLOCKS_MIN) || !inform(self, inflate(mean_scatter(refine), noise, blocks), &information) ||
+    if (!(refine->blocks >= BLOCKS_MIN)) {
+        return false;
+    }
+    jcal_hinge_lin_t acc;
+    jcal_hinge_linearise_acc(moments, cfg, &refine->point, &acc);
+    if (!inform(refine, &acc, inflate(mean_scatter(refine), noise, blocks), &information) ||
         (jcal_eig_symmetric(information.sure, TILTS, values, vectors) != JCAL_OK)) {
         return false;
     }
     float systematic[2];
-    find_systematic(self, systematic);
+    find_systematic(refine, cfg->rate_mismatch, systematic);
     float covariance[2][3] = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     out->inflation = 0.0f;
     for (unsigned k = 0u; k < TILTS; ++k) {
@@ -198,7 +199,7 @@ bool jcal_hinge_bounds(const jcal_hinge_t *self, jcal_hinge_bounds_t *out)
         }
         out->inflation = jcal_max(out->inflation, inflation);
     }
-    out->bound1_rad = has_turned(self, 0u) ? widen(refine, 0u, radius(covariance[0])) : JCAL_BOUND_UNKNOWN_RAD;
-    out->bound2_rad = has_turned(self, 1u) ? widen(refine, 1u, radius(covariance[1])) : JCAL_BOUND_UNKNOWN_RAD;
+    out->bound1_rad = has_turned(refine, cfg, 0u) ? widen(refine, 0u, radius(covariance[0])) : JCAL_BOUND_UNKNOWN_RAD;
+    out->bound2_rad = has_turned(refine, cfg, 1u) ? widen(refine, 1u, radius(covariance[1])) : JCAL_BOUND_UNKNOWN_RAD;
     return true;
 }

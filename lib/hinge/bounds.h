@@ -4,7 +4,11 @@
 #ifndef JCAL_HINGE_BOUNDS_H
 #define JCAL_HINGE_BOUNDS_H
 
-#include "jointcal/hinge.h"
+#include "jointcal/hinge_config.h"
+#include "jointcal/private/hinge/moments.h"
+#include "jointcal/private/hinge/refine.h"
+
+#include <stdbool.h>
 
 /// What a judgement rests on.
 typedef struct {
@@ -15,6 +19,7 @@ typedef struct {
 } jcal_hinge_bounds_t;
 
 /// Bounds of the refined axes. False if there is not enough data for a statement.
-bool jcal_hinge_bounds(const jcal_hinge_t *self, jcal_hinge_bounds_t *out);
+bool jcal_hinge_bounds(const jcal_hinge_refine_t *refine, const jcal_hinge_moments_t *moments,
+                       const jcal_hinge_config_t *cfg, jcal_hinge_bounds_t *out);
 
 #endif /* JCAL_HINGE_BOUNDS_H */

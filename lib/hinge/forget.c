@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Giving up some of what the refined axes' sums know. See hinge/refine.h.
-#include "hinge/refine.h"
+/// Giving up some of what the refined axes' sums know. See hinge/forget.h.
+#include "hinge/forget.h"
 
+#include "hinge/block.h"
+#include "hinge/model.h"
 #include "math/scalar.h"
 #include "math/sym.h"
 

@@ -10,6 +10,7 @@
 #include "hinge/search.h"
 #include "math/scalar.h"
 
+#include <float.h>
 #include <math.h>
 
 /// Integral of the squared difference of the rates, beyond what errors make, that shows that the joint moves, rad^2/s:
@@ -38,9 +39,6 @@
 #define RIVAL_RATIO_MIN 1.5f
 #define INFLATION_MIN 0.3f
 
-/// Entering `ready` takes bounds below this share of the limit, staying there the limit itself.
-#define ENTER_SHARE 0.98f
-
 /// Judgements in a row, one each 45 ms, that must agree before `ready`.
 #define AGREED_MIN 6u
 
@@ -59,17 +57,18 @@ static float ratio_of(float other, float same)
 }
 
 /// With unknown noise, N independent residuals whose sum of squares is r times larger speak with the odds r^(N / 2).
-static sign_t compare_signs(const jcal_hinge_t *self)
+static sign_t compare_signs(const jcal_hinge_evidence_t *self)
 {
     sign_t sign = {0.0f, 0.0f};
-    if (!self->search.has_flip && (self->search.rounds == 0u)) {
+    if (!self->search->has_flip && (self->search->rounds == 0u)) {
         return sign;
     }
-    const jcal_hinge_refine_t *const refine = &self->refine;
-    const jcal_hinge_point_t flip = jcal_hinge_flipped(self);
-    const float acc_same = jcal_hinge_cost_acc(&self->moments, &self->cfg, &self->point);
-    const float acc_other = jcal_hinge_cost_acc(&self->moments, &self->cfg, &flip);
-    const float acc_time_s = (self->weight_acc * self->weight_acc) / jcal_max(self->weight_acc2, 1e-20f);
+    const jcal_hinge_refine_t *const refine = self->refine;
+    const jcal_hinge_point_t flip = jcal_hinge_flipped(self->search, &self->coarse->point);
+    const float acc_same = jcal_hinge_cost_acc(&self->coarse->moments, self->cfg, &self->coarse->point);
+    const float acc_other = jcal_hinge_cost_acc(&self->coarse->moments, self->cfg, &flip);
+    const float acc_time_s =
+        (self->amount->weight_acc * self->amount->weight_acc) / jcal_max(self->amount->weight_acc2, 1e-20f);
     const float acc_odds = (acc_time_s / ACC_MEMORY_S) * jcal_ln(ratio_of(acc_other, acc_same));
     const float turn_odds = (refine->sign_time_s / TURN_MEMORY_S) * jcal_ln(ratio_of(refine->other, refine->same));
     const float turn_scale = refine->units / jcal_max(refine->time_s, 1e-9f);
@@ -79,37 +78,37 @@ static sign_t compare_signs(const jcal_hinge_t *self)
 }
 
 /// True if another minimum explains the data about as well, or if not all starts have been tried yet.
-static bool has_rival(const jcal_hinge_t *self, float cost, float inflation)
+static bool has_rival(const jcal_hinge_evidence_t *self, float cost, float inflation, float slack)
 {
-    if (self->search.rounds == 0u) {
+    if (self->search->rounds == 0u) {
         return true;
     }
-    const jcal_hinge_place_t *const rival = &self->search.rival;
-    jcal_hinge_point_t there = self->point;
+    const jcal_hinge_place_t *const rival = &self->search->rival;
+    jcal_hinge_point_t there = self->coarse->point;
     jcal_hinge_point_set(&there, rival->j1, rival->j2);
-    if (!self->search.has_rival || jcal_hinge_same_lines(&self->point, &there)) {
+    if (!self->search->has_rival || jcal_hinge_same_lines(&self->coarse->point, &there)) {
         return false;
     }
-    const float other = jcal_hinge_cost_of_rival(self);
-    const bool much_worse = (other - cost) > (RIVAL_COST_MIN * jcal_max(inflation, INFLATION_MIN));
-    return !(much_worse && (other > (RIVAL_RATIO_MIN * cost)));
+    const float other = jcal_hinge_cost_of_rival(self->search, &self->coarse->moments, self->cfg);
+    const bool much_worse = (slack * (other - cost)) > (RIVAL_COST_MIN * jcal_max(inflation, INFLATION_MIN));
+    return !(much_worse && ((slack * other) > (RIVAL_RATIO_MIN * cost)));
 }
 
 /// True if what remains of the rates is small beside the joint's own rate.
-static bool fits(const jcal_hinge_t *self)
+static bool fits(const jcal_hinge_evidence_t *self, float slack)
 {
-    const float unit = self->cfg.gyr_noise_rad_s * self->cfg.gyr_noise_rad_s;
-    const float units = jcal_max(self->refine.units, 1e-9f);
-    const float error = sqrtf(unit * self->refine.cost / units);
-    const float joint = sqrtf(unit * self->refine.joint / units);
-    return error < ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S);
+    const float unit = self->cfg->gyr_noise_rad_s * self->cfg->gyr_noise_rad_s;
+    const float units = jcal_max(self->refine->units, 1e-9f);
+    const float error = sqrtf(unit * self->refine->cost / units);
+    const float joint = sqrtf(unit * self->refine->joint / units);
+    return error < (slack * ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S));
 }
 
 /// True if some hinge explains the lengths of the rates, whatever the refined axes are doing.
-static bool is_explained(const jcal_hinge_t *self)
+static bool is_explained(const jcal_hinge_evidence_t *self, float slack)
 {
-    const float left = jcal_hinge_cost_gyr(&self->moments, &self->point);
-    return left < (UNEXPLAINED_MAX * jcal_hinge_cost_gyr_alone(&self->moments));
+    const float left = jcal_hinge_cost_gyr(&self->coarse->moments, &self->coarse->point);
+    return left < (slack * UNEXPLAINED_MAX * jcal_hinge_cost_gyr_alone(&self->coarse->moments));
 }
 
 static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
@@ -134,49 +133,48 @@ static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
     }
 }
 
-static bool is_hinted(const jcal_hinge_t *self)
+static bool is_hinted(const jcal_hinge_evidence_t *self)
 {
-    return self->cfg.sign_hint != JCAL_SIGN_UNKNOWN;
+    return self->cfg->sign_hint != JCAL_SIGN_UNKNOWN;
 }
 
 /// True if the data insist on the pairing that the user's hint excludes.
-static bool contradicts_hint(const jcal_hinge_t *self, const sign_t *sign)
+static bool contradicts_hint(const jcal_hinge_evidence_t *self, const sign_t *sign)
 {
     const bool contradicted = (sign->evidence < -SIGN_EVIDENCE_MIN) && (sign->margin < (1.0f / SIGN_MARGIN_MIN));
-    return is_hinted(self) && (contradicted || !jcal_hinge_obeys(&self->refine.point, self->cfg.sign_hint));
+    const bool obeys = jcal_hinge_obeys(&self->refine->point, self->cfg->sign_hint, self->kept_sign);
+    return is_hinted(self) && (contradicted || !obeys);
 }
 
 /// The first thing that keeps the estimate from being ready, the worst first.
-static jcal_reason_t find_reason(const jcal_hinge_t *self, const jcal_hinge_bounds_t *bounds, const sign_t *sign)
+static jcal_reason_t find_reason(const jcal_hinge_evidence_t *self, const jcal_hinge_bounds_t *bounds,
+                                 const sign_t *sign, float slack)
 {
-    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
-    if (complaint != JCAL_REASON_NONE) {
-        return complaint;
+    if (self->complaint != JCAL_REASON_NONE) {
+        return self->complaint;
     }
-    if (self->excitation < EXCITATION_MIN) {
+    if (self->amount->excitation < EXCITATION_MIN) {
         return JCAL_REASON_NO_MOTION;
     }
     if (contradicts_hint(self, sign)) {
         return JCAL_REASON_SIGN_OPEN;
     }
-    if (!fits(self) || !is_explained(self)) {
+    if (!fits(self, slack) || !is_explained(self, slack)) {
         return JCAL_REASON_DOES_NOT_FIT;
     }
-    const float limit_rad = (self->verdict.status == (uint8_t)JCAL_READY) ? self->cfg.max_bound_rad
-                                                                          : (ENTER_SHARE * self->cfg.max_bound_rad);
-    if (!(jcal_max(bounds->bound1_rad, bounds->bound2_rad) <= limit_rad)) {
+    if (!(jcal_max(bounds->bound1_rad, bounds->bound2_rad) <= (slack * self->cfg->max_bound_rad))) {
         return JCAL_REASON_UNCERTAIN;
     }
-    if (!is_hinted(self) && !((sign->evidence > SIGN_EVIDENCE_MIN) && (sign->margin > SIGN_MARGIN_MIN))) {
+    const bool certain = ((slack * sign->evidence) > SIGN_EVIDENCE_MIN) && ((slack * sign->margin) > SIGN_MARGIN_MIN);
+    if (!is_hinted(self) && !certain) {
         return JCAL_REASON_SIGN_OPEN;
     }
-    return has_rival(self, jcal_hinge_cost(&self->moments, &self->cfg, &self->point), bounds->inflation)
-               ? JCAL_REASON_OTHER_MINIMUM
-               : JCAL_REASON_NONE;
+    const float cost = jcal_hinge_cost(&self->coarse->moments, self->cfg, &self->coarse->point);
+    return has_rival(self, cost, bounds->inflation, slack) ? JCAL_REASON_OTHER_MINIMUM : JCAL_REASON_NONE;
 }
 
 /// The wider bound; where nothing is known of either axis, the one about which its segment turned less.
-static jcal_weak_t weak_for(const jcal_hinge_t *self, jcal_reason_t reason, const jcal_hinge_bounds_t *bounds)
+static jcal_weak_t weak_for(const jcal_hinge_evidence_t *self, jcal_reason_t reason, const jcal_hinge_bounds_t *bounds)
 {
     if (reason == JCAL_REASON_NONE) {
         return JCAL_WEAK_NONE;
@@ -185,24 +183,24 @@ static jcal_weak_t weak_for(const jcal_hinge_t *self, jcal_reason_t reason, cons
         return JCAL_WEAK_SIGN;
     }
     if (bounds->bound1_rad == bounds->bound2_rad) {
-        return (self->refine.along[0] <= self->refine.along[1]) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
+        return (self->refine->along[0] <= self->refine->along[1]) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
     }
     return (bounds->bound1_rad > bounds->bound2_rad) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
 }
 
-static void report(jcal_hinge_t *self, jcal_reason_t found, const jcal_hinge_bounds_t *bounds, const sign_t *sign)
+static void report(const jcal_hinge_evidence_t *self, jcal_hinge_verdict_t *verdict, jcal_reason_t found,
+                   const jcal_hinge_bounds_t *bounds, const sign_t *sign)
 {
-    jcal_hinge_verdict_t *const verdict = &self->verdict;
     if (found != JCAL_REASON_NONE) {
-        self->agreed = 0u;
-    } else if (self->agreed < AGREED_MIN) {
-        self->agreed = (uint8_t)(self->agreed + 1u);
+        verdict->agreed = 0u;
+    } else if (verdict->agreed < AGREED_MIN) {
+        verdict->agreed = (uint8_t)(verdict->agreed + 1u);
     }
-    const bool ready = self->agreed >= AGREED_MIN;
+    const bool ready = verdict->agreed >= AGREED_MIN;
     const jcal_reason_t reason = (!ready && (found == JCAL_REASON_NONE)) ? JCAL_REASON_UNCERTAIN : found;
     const bool ambiguous = (reason == JCAL_REASON_SIGN_OPEN) || (reason == JCAL_REASON_OTHER_MINIMUM);
     const jcal_weak_t weak = weak_for(self, reason, bounds);
-    if ((verdict->status != (uint8_t)JCAL_MOVED) || (self->search.rounds > 0u)) { /* there is something new to say */
+    if ((verdict->status != (uint8_t)JCAL_MOVED) || (self->search->rounds > 0u)) { /* there is something new to say */
         verdict->status = (uint8_t)(ready ? JCAL_READY : (ambiguous ? JCAL_AMBIGUOUS : JCAL_COLLECTING));
     }
     verdict->reason = (uint8_t)reason;
@@ -215,37 +213,40 @@ static void report(jcal_hinge_t *self, jcal_reason_t found, const jcal_hinge_bou
 }
 
 /// Why there are no bounds.
-static jcal_reason_t why_nothing_is_known(const jcal_hinge_t *self, const sign_t *sign)
+static jcal_reason_t why_nothing_is_known(const jcal_hinge_evidence_t *self, const sign_t *sign)
 {
-    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
-    if (complaint != JCAL_REASON_NONE) {
-        return complaint;
+    if (self->complaint != JCAL_REASON_NONE) {
+        return self->complaint;
     }
     if (contradicts_hint(self, sign)) {
         return JCAL_REASON_SIGN_OPEN;
     }
-    if (self->search.rounds < ROUNDS_MANY) {
+    if (self->search->rounds < ROUNDS_MANY) {
         return JCAL_REASON_NO_DATA;
     }
-    if (self->excitation < EXCITATION_MIN) {
+    if (self->amount->excitation < EXCITATION_MIN) {
         return JCAL_REASON_NO_MOTION;
     }
-    return is_explained(self) ? JCAL_REASON_UNCERTAIN : JCAL_REASON_DOES_NOT_FIT;
+    return is_explained(self, 1.0f) ? JCAL_REASON_UNCERTAIN : JCAL_REASON_DOES_NOT_FIT;
 }
 
-void jcal_hinge_judge(jcal_hinge_t *self)
+bool jcal_hinge_judge(const jcal_hinge_evidence_t *self, jcal_hinge_verdict_t *verdict)
 {
     jcal_hinge_bounds_t bounds = {JCAL_BOUND_UNKNOWN_RAD, JCAL_BOUND_UNKNOWN_RAD, 0.0f};
     sign_t sign = {0.0f, 0.0f};
-    if (self->has_point) {
+    if (self->coarse->has_point) {
         sign = compare_signs(self);
     }
-    if (!self->has_point || !jcal_hinge_bounds(self, &bounds)) {
-        report(self, why_nothing_is_known(self, &sign), &bounds, &sign);
-        return;
+    if (!self->coarse->has_point || !jcal_hinge_bounds(self->refine, &self->coarse->moments, self->cfg, &bounds)) {
+        report(self, verdict, why_nothing_is_known(self, &sign), &bounds, &sign);
+        return false;
     }
-    report(self, find_reason(self, &bounds, &sign), &bounds, &sign);
-    if (!is_hinted(self) && (sign.evidence < SIGN_EVIDENCE_TURN)) {
-        jcal_hinge_turn_round(self);
-    }
+    const float slack = (verdict->status == (uint8_t)JCAL_READY) ? JCAL_HINGE_HYSTERESIS : 1.0f;
+    report(self, verdict, find_reason(self, &bounds, &sign, slack), &bounds, &sign);
+    return !is_hinted(self) && (sign.evidence < SIGN_EVIDENCE_TURN);
+}
+
+float jcal_hinge_progress(float bound_rad, float max_bound_rad)
+{
+    return jcal_min(1.0f, max_bound_rad / jcal_max(bound_rad, FLT_MIN));
 }

@@ -4,9 +4,33 @@
 #ifndef JCAL_HINGE_JUDGE_H
 #define JCAL_HINGE_JUDGE_H
 
-#include "jointcal/hinge.h"
+#include "jointcal/hinge_config.h"
+#include "jointcal/private/hinge/coarse.h"
+#include "jointcal/private/hinge/refine.h"
+#include "jointcal/private/hinge/search.h"
+#include "jointcal/private/hinge/verdict.h"
+#include "jointcal/status.h"
 
-/// Works out bounds, sign margin and status from the sums and writes them into self->verdict.
-void jcal_hinge_judge(jcal_hinge_t *self);
+#include <stdbool.h>
+
+/// Leaving `ready` takes this much more than entering it: a wider bound, a worse fit, less evidence. As for the other joints.
+#define JCAL_HINGE_HYSTERESIS 1.2f
+
+/// What a judgement reads.
+typedef struct {
+    const jcal_hinge_config_t *cfg;
+    const jcal_hinge_coarse_t *coarse;
+    const jcal_hinge_refine_t *refine;
+    const jcal_hinge_search_t *search;
+    const jcal_hinge_amount_t *amount;
+    jcal_reason_t complaint;  ///< Of the gate about the sensors.
+    const int8_t *kept_sign;  ///< Of both axes, from the first `ready` on: largest components may tie.
+} jcal_hinge_evidence_t;
+
+/// Works out bounds, sign margin and status from the sums. Returns true if the other sign pairing should become the estimate.
+bool jcal_hinge_judge(const jcal_hinge_evidence_t *self, jcal_hinge_verdict_t *verdict);
+
+/// 0 to 1: how far a bound is on the way to its limit.
+float jcal_hinge_progress(float bound_rad, float max_bound_rad);
 
 #endif /* JCAL_HINGE_JUDGE_H */

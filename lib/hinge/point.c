@@ -3,6 +3,7 @@
 /// Moving about in the parameter space of the hinge. See hinge/point.h.
 #include "hinge/point.h"
 
+#include "joint/sign.h"
 #include "math/sphere.h"
 
 #include <math.h>
@@ -56,23 +57,15 @@ bool jcal_hinge_same_pairing(const jcal_hinge_point_t *a, const jcal_hinge_point
     return (jcal_vec3_dot(a->axis1.j, b->axis1.j) * jcal_vec3_dot(a->axis2.j, b->axis2.j)) > 0.0f;
 }
 
-float jcal_hinge_main_sign(jcal_vec3_t v)
+bool jcal_hinge_obeys(const jcal_hinge_point_t *point, jcal_sign_hint_t hint, const int8_t kept[2])
 {
-    float main = v.x;
-    main = (fabsf(v.y) > fabsf(main)) ? v.y : main;
-    main = (fabsf(v.z) > fabsf(main)) ? v.z : main;
-    return (main < 0.0f) ? -1.0f : 1.0f;
-}
-
-bool jcal_hinge_obeys(const jcal_hinge_point_t *point, jcal_sign_hint_t hint)
-{
-    const bool same = jcal_hinge_main_sign(point->axis1.j) == jcal_hinge_main_sign(point->axis2.j);
+    const bool same = jcal_sign_held(point->axis1.j, kept[0]) == jcal_sign_held(point->axis2.j, kept[1]);
     return !((hint == JCAL_SIGN_SAME) && !same) && !((hint == JCAL_SIGN_OPPOSITE) && same);
 }
 
-void jcal_hinge_obey(jcal_hinge_point_t *point, jcal_sign_hint_t hint)
+void jcal_hinge_obey(jcal_hinge_point_t *point, jcal_sign_hint_t hint, const int8_t kept[2])
 {
-    if (!jcal_hinge_obeys(point, hint)) {
+    if (!jcal_hinge_obeys(point, hint, kept)) {
         jcal_hinge_axis_set(&point->axis2, jcal_vec3_scale(point->axis2.j, -1.0f));
     }
 }

@@ -32,13 +32,11 @@ bool jcal_hinge_same_lines(const jcal_hinge_point_t *a, const jcal_hinge_point_t
 /// True if a and b have the same sign pairing; both signs turned together mean the same joint.
 bool jcal_hinge_same_pairing(const jcal_hinge_point_t *a, const jcal_hinge_point_t *b);
 
-/// True if the sign pairing is the one that the user's hint names, or if there is no hint.
-bool jcal_hinge_obeys(const jcal_hinge_point_t *point, jcal_sign_hint_t hint);
+/// True if the sign pairing is the one that the user's hint names, or if there is no hint. `kept`: the component of either axis whose
+/// sign counts, lib/joint/sign.h; zeros: the largest ones.
+bool jcal_hinge_obeys(const jcal_hinge_point_t *point, jcal_sign_hint_t hint, const int8_t kept[2]);
 
 /// Turns axis 2 round if the user's hint says so.
-void jcal_hinge_obey(jcal_hinge_point_t *point, jcal_sign_hint_t hint);
-
-/// +1 or -1: sign of the component of largest magnitude.
-float jcal_hinge_main_sign(jcal_vec3_t v);
+void jcal_hinge_obey(jcal_hinge_point_t *point, jcal_sign_hint_t hint, const int8_t kept[2]);
 
 #endif /* JCAL_HINGE_POINT_H */

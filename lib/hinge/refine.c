@@ -3,7 +3,7 @@
 /// The precise axes. See hinge/refine.h for the equations.
 #include "hinge/refine.h"
 
-#include "hinge/block.h"
+#include "hinge/model.h"
 #include "hinge/point.h"
 #include "hinge/slip.h"
 #include "jointcal/vec3.h"
@@ -210,17 +210,17 @@ static bool find_gain(jcal_hinge_refine_t *self, const float matrix[36])
 }
 
 /// d <- the step to the minimum of these sums, the accelerometer part, the prior of the biases and the pull.
-static bool find_step(jcal_hinge_t *engine, float d[UNKNOWNS])
+static bool find_step(jcal_hinge_refine_t *self, const jcal_hinge_config_t *cfg, const jcal_hinge_coarse_t *coarse,
+                      float d[UNKNOWNS])
 {
-    jcal_hinge_refine_t *const self = &engine->refine;
     jcal_hinge_lin_t acc;
-    jcal_hinge_linearise_acc(&engine->moments, &engine->cfg, &self->point, &acc);
+    jcal_hinge_linearise_acc(&coarse->moments, cfg, &self->point, &acc);
     float matrix[36];
     float away[TILTS];
     const float pull = jcal_hinge_refine_pull(self);
     const float prior = BIAS_PRIOR * jcal_hinge_refine_noise(self);
-    offset(&self->point.axis1, engine->point.axis1.j, &away[0]);
-    offset(&self->point.axis2, engine->point.axis2.j, &away[2]);
+    offset(&self->point.axis1, coarse->point.axis1.j, &away[0]);
+    offset(&self->point.axis2, coarse->point.axis2.j, &away[2]);
     for (unsigned i = 0u; i < JCAL_SYM_SIZE(UNKNOWNS); ++i) {
         matrix[i] = self->matrix[i] + ((i < JCAL_SYM_SIZE(TILTS)) ? acc.matrix[i] : 0.0f);
     }
@@ -239,11 +239,10 @@ static bool find_step(jcal_hinge_t *engine, float d[UNKNOWNS])
 }
 
 /// Goes to where the sums have their minimum; an axis that is far from it begins anew on the way there.
-static void follow(jcal_hinge_t *engine)
+static void follow(jcal_hinge_refine_t *self, const jcal_hinge_config_t *cfg, const jcal_hinge_coarse_t *coarse)
 {
-    jcal_hinge_refine_t *const self = &engine->refine;
     float d[UNKNOWNS];
-    if (!find_step(engine, d)) {
+    if (!find_step(self, cfg, coarse, d)) {
         return;
     }
     bool jumps[2];
@@ -261,8 +260,8 @@ static void follow(jcal_hinge_t *engine)
             jcal_hinge_refine_forget(self, axis, 0.0f);
         }
     }
-    if (!jcal_hinge_same_lines(&engine->point, &self->point)) {
-        jcal_hinge_refine_go(self, &engine->point);
+    if (!jcal_hinge_same_lines(&coarse->point, &self->point)) {
+        jcal_hinge_refine_go(self, &coarse->point);
     }
 }
 
@@ -318,9 +317,8 @@ static void add_block(jcal_hinge_refine_t *self, float reach)
     self->time_s += block->time_s;
 }
 
-static void close_block(jcal_hinge_t *engine)
+static void close_block(jcal_hinge_refine_t *self, const jcal_hinge_config_t *cfg, const jcal_hinge_coarse_t *coarse)
 {
-    jcal_hinge_refine_t *const self = &engine->refine;
     const jcal_hinge_block_t *const block = &self->block;
     const float power1 = block->matrix[jcal_sym_at(PHASE, PHASE)];
     const float reach = power1 + (PHASE_FLOOR * block->units);
@@ -344,25 +342,25 @@ static void close_block(jcal_hinge_t *engine)
     correct_phase(self, sure);
     jcal_hinge_block_begin(&self->block);
     if (sure) {
-        follow(engine);
+        follow(self, cfg, coarse);
     } else if (!(self->blocks > 0.0f)) { /* nothing lost: the moments may know better by now */
-        self->point = engine->point;
-    } else if (!jcal_hinge_same_lines(&engine->point, &self->point)) {
-        jcal_hinge_refine_go(self, &engine->point); /* no block would ever be sure here */
+        self->point = coarse->point;
+    } else if (!jcal_hinge_same_lines(&coarse->point, &self->point)) {
+        jcal_hinge_refine_go(self, &coarse->point); /* no block would ever be sure here */
     } else {
         /* the phase has been found again */
     }
 }
 
-bool jcal_hinge_refine_add(jcal_hinge_t *engine, const jcal_hinge_sample_t *sample)
+bool jcal_hinge_refine_add(jcal_hinge_refine_t *self, const jcal_hinge_config_t *cfg, const jcal_hinge_coarse_t *coarse,
+                           const jcal_hinge_sample_t *sample)
 {
-    jcal_hinge_refine_t *const self = &engine->refine;
-    jcal_hinge_block_add(self, &engine->cfg, engine->acc_constant_m_s2, sample);
+    jcal_hinge_block_add(self, cfg, coarse->acc_constant_m_s2, sample);
     const float share_s = jcal_min(BLOCK_MAX_S, jcal_max(BLOCK_MIN_S, BLOCK_SHARE * self->time_s));
     const float length_s = (self->phase_weight > 0.0f) ? share_s : BLOCK_FIRST_S;
     const bool full = self->block.time_s >= (length_s - (0.5f * sample->dt_s));
     if (full) {
-        close_block(engine);
+        close_block(self, cfg, coarse);
     }
     return full;
 }

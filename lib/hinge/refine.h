@@ -14,23 +14,13 @@
 #ifndef JCAL_HINGE_REFINE_H
 #define JCAL_HINGE_REFINE_H
 
-#include "hinge/model.h"
-#include "jointcal/hinge.h"
+#include "hinge/block.h"
+#include "hinge/forget.h"
+#include "jointcal/hinge_config.h"
+#include "jointcal/private/hinge/coarse.h"
+#include "jointcal/private/hinge/refine.h"
 
-/// Unknowns: 4 tilts, rad, then 4 biases across the axes, in standard deviations.
-#define JCAL_HINGE_UNKNOWNS 8u
-
-/// Duration that counts as one independent reading: sets the unit of the cost, s.
-#define JCAL_HINGE_UNIT_S 0.05f
-
-/// One sample with what the sums need of it.
-typedef struct {
-    jcal_vec3_t w1, w2;  ///< Rates, rad/s.
-    jcal_vec3_t a1, a2;  ///< Specific forces, m/s^2.
-    float w1_2, w2_2;    ///< |w1|^2, |w2|^2.
-    float dt_s;          ///< Time that the sample stands for.
-    float acc_weight;    ///< Weight of (25), integrated over dt.
-} jcal_hinge_sample_t;
+#include <stdbool.h>
 
 /// Begins anew at a point.
 void jcal_hinge_refine_restart(jcal_hinge_refine_t *self, const jcal_hinge_point_t *point);
@@ -42,20 +32,12 @@ void jcal_hinge_refine_go(jcal_hinge_refine_t *self, const jcal_hinge_point_t *p
 /// The samples that follow are not continuous with those before.
 void jcal_hinge_refine_interrupt(jcal_hinge_refine_t *self);
 
-/// Adds one sample to the refined axes of an engine that has an estimate; closes the block that it fills, and moves the axes
-/// with it: then it returns true.
+/// Adds one sample to the refined axes; `coarse` has an estimate. Closes the block that the sample fills, and moves the axes with
+/// it: then it returns true.
 ///
 /// Cost:     about 250 multiply-adds; where a block ends, 1000 more.
-bool jcal_hinge_refine_add(jcal_hinge_t *engine, const jcal_hinge_sample_t *sample);
-
-/// Multiplies all sums by a share: what they rest on counts so much less.
-void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share);
-
-/// Gives up all but a share of what the sums know of one axis (0, 1); the other one keeps what it owes to itself alone.
-void jcal_hinge_refine_forget(jcal_hinge_refine_t *self, unsigned axis, float keep);
-
-/// The same, but what is known of the residuals stays.
-void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, float keep);
+bool jcal_hinge_refine_add(jcal_hinge_refine_t *self, const jcal_hinge_config_t *cfg, const jcal_hinge_coarse_t *coarse,
+                           const jcal_hinge_sample_t *sample);
 
 /// Effective number of blocks, each counted by its information; at most twice those since an axis began anew.
 float jcal_hinge_refine_blocks(const jcal_hinge_refine_t *self);

@@ -1,18 +1,13 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// What the stream engine of the hinge tells its user.
-#include "hinge/point.h"
+#include "hinge/judge.h"
+#include "joint/head.h"
+#include "joint/sign.h"
 #include "jointcal/hinge.h"
 #include "jointcal/vec3.h"
-#include "math/scalar.h"
 
-#include <float.h>
 #include <stddef.h>
-
-static float progress(float bound_rad, float max_bound_rad)
-{
-    return jcal_min(1.0f, max_bound_rad / jcal_max(bound_rad, FLT_MIN));
-}
 
 static void tell_verdict(const jcal_hinge_t *self, jcal_hinge_result_t *result)
 {
@@ -24,15 +19,11 @@ static void tell_verdict(const jcal_hinge_t *self, jcal_hinge_result_t *result)
     result->uncertainty1_rad = verdict->bound1_rad;
     result->uncertainty2_rad = verdict->bound2_rad;
     result->sign_margin = verdict->sign_margin;
-    result->progress_axis1 = progress(verdict->bound1_rad, self->cfg.max_bound_rad);
-    result->progress_axis2 = progress(verdict->bound2_rad, self->cfg.max_bound_rad);
+    result->progress_axis1 = jcal_hinge_progress(verdict->bound1_rad, self->cfg.max_bound_rad);
+    result->progress_axis2 = jcal_hinge_progress(verdict->bound2_rad, self->cfg.max_bound_rad);
     result->progress_sign = (self->cfg.sign_hint != JCAL_SIGN_UNKNOWN) ? 1.0f : verdict->sign_progress;
-    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
-    if (complaint != JCAL_REASON_NONE) { /* a sensor that fails sends nothing that a judgement would follow */
-        result->head.status = JCAL_COLLECTING;
-        result->head.reason = complaint;
-        result->head.hint = JCAL_HINT_CHECK_SENSORS;
-    }
+    const bool first = verdict->bound1_rad >= verdict->bound2_rad;
+    jcal_head_complain(&result->head, jcal_gate_complaint(&self->gate), first ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2);
 }
 
 jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
@@ -43,19 +34,15 @@ jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
     jcal_hinge_result_t result = {0};
     result.head.engine = JCAL_ENGINE_STREAM;
     tell_verdict(self, &result);
-    result.has_axes = self->has_point;
-    if (self->has_point) {
-        const float sign = jcal_hinge_main_sign(self->refine.point.axis1.j);
+    result.has_axes = self->coarse.has_point;
+    if (self->coarse.has_point) {
+        const float sign = jcal_sign_of(self->refine.point.axis1.j, self->cfg.axis1_toward, self->kept_sign[0]);
         result.axis1 = jcal_vec3_scale(self->refine.point.axis1.j, sign);
         result.axis2 = jcal_vec3_scale(self->refine.point.axis2.j, sign);
     }
     result.head.t_us = self->last_us;
-    result.head.samples = self->gate.samples;
+    jcal_head_count(&result.head, self->gate.samples, self->gate.rejected_by);
     result.head.overrun = self->inbox.ring.overrun;
-    for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
-        result.head.rejected_by[i] = self->gate.rejected_by[i];
-        result.head.rejected += self->gate.rejected_by[i];
-    }
     *out = result;
     return JCAL_OK;
 }

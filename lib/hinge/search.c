@@ -5,7 +5,6 @@
 
 #include "hinge/model.h"
 #include "hinge/point.h"
-#include "hinge/refine.h"
 #include "math/eig.h"
 #include "math/scalar.h"
 #include "math/solve.h"
@@ -55,18 +54,19 @@ static bool step(const jcal_hinge_lin_t *lin, float *damping, float d[JCAL_HINGE
 }
 
 /// Moves a point by one step if that lowers the cost; returns the length of the step, rad.
-static float descend(const jcal_hinge_t *self, jcal_hinge_point_t *point, float *damping)
+static float descend(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg, jcal_hinge_point_t *point,
+                     float *damping)
 {
     jcal_hinge_lin_t lin;
     float d[JCAL_HINGE_TILTS];
     float predicted;
-    jcal_hinge_linearise(&self->moments, &self->cfg, point, &lin);
+    jcal_hinge_linearise(moments, cfg, point, &lin);
     if (!step(&lin, damping, d, &predicted)) {
         return STEP_MAX_RAD;
     }
     jcal_hinge_point_t trial = *point;
     jcal_hinge_point_move(&trial, d);
-    const float change = 0.5f * jcal_hinge_change(&self->moments, &self->cfg, point, &trial);
+    const float change = 0.5f * jcal_hinge_change(moments, cfg, point, &trial);
     jcal_gn_t gn = {*damping};
     const bool kept = jcal_gn_judge(&gn, predicted, change);
     if (kept || (fabsf(change) < HARMLESS_COST)) {
@@ -76,13 +76,13 @@ static float descend(const jcal_hinge_t *self, jcal_hinge_point_t *point, float 
     return jcal_gn_length(d, JCAL_HINGE_TILTS);
 }
 
-void jcal_hinge_track(jcal_hinge_t *self)
+void jcal_hinge_track(jcal_hinge_coarse_t *self, const jcal_hinge_config_t *cfg, const jcal_hinge_point_t *refined)
 {
     if (!self->has_point) {
         return;
     }
-    (void)descend(self, &self->point, &self->damping);
-    self->acc_constant_m_s2 = jcal_hinge_acc_constant(&self->moments, &self->cfg, &self->refine.point);
+    (void)descend(&self->moments, cfg, &self->point, &self->damping);
+    self->acc_constant_m_s2 = jcal_hinge_acc_constant(&self->moments, cfg, refined);
 }
 
 /// Eigenvector `which` of the weighted sum of |w|^2 w w' of the sensor whose products begin at `first`.
@@ -116,22 +116,18 @@ static jcal_hinge_place_t place_of(const jcal_hinge_point_t *point)
     return place;
 }
 
-static float cost_of(const jcal_hinge_t *self, const jcal_hinge_point_t *point)
+float jcal_hinge_cost_of_rival(const jcal_hinge_search_t *self, const jcal_hinge_moments_t *moments,
+                               const jcal_hinge_config_t *cfg)
 {
-    return jcal_hinge_cost(&self->moments, &self->cfg, point);
+    const jcal_hinge_point_t rival = point_at(&self->rival);
+    return jcal_hinge_cost(moments, cfg, &rival);
 }
 
-float jcal_hinge_cost_of_rival(const jcal_hinge_t *self)
+jcal_hinge_point_t jcal_hinge_flipped(const jcal_hinge_search_t *self, const jcal_hinge_point_t *point)
 {
-    const jcal_hinge_point_t rival = point_at(&self->search.rival);
-    return cost_of(self, &rival);
-}
-
-jcal_hinge_point_t jcal_hinge_flipped(const jcal_hinge_t *self)
-{
-    jcal_hinge_point_t flip = self->point;
-    if (self->search.has_flip) {
-        jcal_hinge_point_set(&flip, self->search.flip.j1, self->search.flip.j2);
+    jcal_hinge_point_t flip = *point;
+    if (self->has_flip) {
+        jcal_hinge_point_set(&flip, self->flip.j1, self->flip.j2);
     } else { /* it has no minimum near these lines; one elsewhere is a rival */
         jcal_hinge_axis_set(&flip.axis2, jcal_vec3_scale(flip.axis2.j, -1.0f));
     }
@@ -139,130 +135,127 @@ jcal_hinge_point_t jcal_hinge_flipped(const jcal_hinge_t *self)
 }
 
 /// The pairing of these lines that the specific forces prefer: (24) knows none.
-static void choose_pairing(const jcal_hinge_t *self, jcal_hinge_point_t *point)
+static void choose_pairing(const jcal_hinge_moments_t *moments, const jcal_hinge_config_t *cfg,
+                           jcal_hinge_point_t *point)
 {
     jcal_hinge_point_t turned = *point;
     jcal_hinge_axis_set(&turned.axis2, jcal_vec3_scale(point->axis2.j, -1.0f));
-    const float here = jcal_hinge_cost_acc(&self->moments, &self->cfg, point);
-    if (jcal_hinge_cost_acc(&self->moments, &self->cfg, &turned) < here) {
+    const float here = jcal_hinge_cost_acc(moments, cfg, point);
+    if (jcal_hinge_cost_acc(moments, cfg, &turned) < here) {
         *point = turned;
     }
 }
 
-static void begin_probe(jcal_hinge_t *self)
+static void begin_probe(jcal_hinge_search_t *self, const jcal_hinge_coarse_t *coarse, const jcal_hinge_config_t *cfg)
 {
-    jcal_hinge_search_t *const search = &self->search;
-    const unsigned start = search->start;
-    jcal_hinge_point_t probe = self->point;
+    const unsigned start = self->start;
+    jcal_hinge_point_t probe = coarse->point;
     if (start < EIGEN_STARTS) {
-        jcal_hinge_point_set(&probe, rate_eigenvector(&self->moments, JCAL_HINGE_Z_W1W1, start / 3u),
-                             rate_eigenvector(&self->moments, JCAL_HINGE_Z_W2W2, start % 3u));
-        choose_pairing(self, &probe);
+        jcal_hinge_point_set(&probe, rate_eigenvector(&coarse->moments, JCAL_HINGE_Z_W1W1, start / 3u),
+                             rate_eigenvector(&coarse->moments, JCAL_HINGE_Z_W2W2, start % 3u));
+        choose_pairing(&coarse->moments, cfg, &probe);
     } else {
         jcal_hinge_axis_set(&probe.axis2, jcal_vec3_scale(probe.axis2.j, -1.0f));
     }
-    search->probe = place_of(&probe);
-    search->damping = JCAL_GN_DAMPING_START;
-    search->iterations = 0u;
-    search->running = true;
+    self->probe = place_of(&probe);
+    self->damping = JCAL_GN_DAMPING_START;
+    self->iterations = 0u;
+    self->running = true;
 }
 
-/// What was judged was the old minimum.
-static void begin_anew(jcal_hinge_t *self, const jcal_hinge_point_t *point)
+static void put(jcal_hinge_coarse_t *coarse, const jcal_hinge_point_t *point)
 {
-    self->point = *point;
-    self->damping = JCAL_GN_DAMPING_START;
-    self->has_point = true;
-    self->agreed = 0u;
-    self->verdict.status = (uint8_t)JCAL_COLLECTING;
-    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
-    jcal_hinge_refine_go(&self->refine, point);
+    coarse->point = *point;
+    coarse->damping = JCAL_GN_DAMPING_START;
+    coarse->has_point = true;
 }
 
 /// Another minimum is better: it becomes the estimate, and the old one the rival.
-static void adopt(jcal_hinge_t *self, const jcal_hinge_point_t *probe)
+static void adopt(jcal_hinge_search_t *self, jcal_hinge_coarse_t *coarse, const jcal_hinge_point_t *probe)
 {
-    jcal_hinge_search_t *const search = &self->search;
-    if (self->has_point) {
-        search->rival = place_of(&self->point);
-        search->has_rival = true;
-        search->has_flip = false;
+    if (coarse->has_point) {
+        self->rival = place_of(&coarse->point);
+        self->has_rival = true;
+        self->has_flip = false;
     }
-    begin_anew(self, probe);
+    put(coarse, probe);
 }
 
-void jcal_hinge_turn_round(jcal_hinge_t *self)
+void jcal_hinge_turn_round(jcal_hinge_search_t *self, jcal_hinge_coarse_t *coarse)
 {
-    const jcal_hinge_point_t flip = jcal_hinge_flipped(self);
-    self->search.flip = place_of(&self->point);
-    self->search.has_flip = true;
-    begin_anew(self, &flip);
+    const jcal_hinge_point_t flip = jcal_hinge_flipped(self, &coarse->point);
+    self->flip = place_of(&coarse->point);
+    self->has_flip = true;
+    put(coarse, &flip);
 }
 
 /// True if the probe runs into the estimate, so that its further steps would tell nothing.
-static bool has_joined(const jcal_hinge_t *self, const jcal_hinge_point_t *probe)
+static bool has_joined(const jcal_hinge_coarse_t *coarse, const jcal_hinge_point_t *probe)
 {
-    return self->has_point && (fabsf(jcal_vec3_dot(self->point.axis1.j, probe->axis1.j)) > JOINED_COSINE) &&
-           (fabsf(jcal_vec3_dot(self->point.axis2.j, probe->axis2.j)) > JOINED_COSINE) &&
-           jcal_hinge_same_pairing(&self->point, probe);
+    return coarse->has_point && (fabsf(jcal_vec3_dot(coarse->point.axis1.j, probe->axis1.j)) > JOINED_COSINE) &&
+           (fabsf(jcal_vec3_dot(coarse->point.axis2.j, probe->axis2.j)) > JOINED_COSINE) &&
+           jcal_hinge_same_pairing(&coarse->point, probe);
 }
 
-/// Files what a finished probe found: the estimate itself, a better minimum, the other pairing, or a rival.
-static void file_probe(jcal_hinge_t *self, const jcal_hinge_point_t *probe)
+/// Files what a finished probe found: the estimate itself, a better minimum, the other pairing, or a rival. True if the estimate is
+/// another one now.
+static bool file_probe(jcal_hinge_search_t *self, jcal_hinge_coarse_t *coarse, const jcal_hinge_config_t *cfg,
+                       bool may_turn, const jcal_hinge_point_t *probe)
 {
-    jcal_hinge_search_t *const search = &self->search;
-    if (!self->has_point) {
-        adopt(self, probe);
-        return;
+    if (!coarse->has_point) {
+        adopt(self, coarse, probe);
+        return true;
     }
-    const float cost = cost_of(self, probe);
-    const bool better = cost < cost_of(self, &self->point);
-    if (!jcal_hinge_same_lines(&self->point, probe)) {
+    const float cost = jcal_hinge_cost(&coarse->moments, cfg, probe);
+    const bool better = cost < jcal_hinge_cost(&coarse->moments, cfg, &coarse->point);
+    if (!jcal_hinge_same_lines(&coarse->point, probe)) {
         if (better) {
-            adopt(self, probe);
-        } else if (!search->has_rival || (cost < jcal_hinge_cost_of_rival(self))) {
-            search->rival = place_of(probe);
-            search->has_rival = true;
-        } else {
-            /* neither the best nor the second */
+            adopt(self, coarse, probe);
+            return true;
         }
-    } else if (!jcal_hinge_same_pairing(&self->point, probe)) {
-        search->flip = place_of(probe);
-        search->has_flip = true;
-        /* Later on the judgement decides, which knows what the rates say of the pairing. */
-        if (better && !(self->refine.blocks > 0.0f) && (self->cfg.sign_hint == JCAL_SIGN_UNKNOWN)) {
-            jcal_hinge_turn_round(self);
+        if (!self->has_rival || (cost < jcal_hinge_cost_of_rival(self, &coarse->moments, cfg))) {
+            self->rival = place_of(probe);
+            self->has_rival = true;
         }
-    } else if (better && !has_joined(self, probe)) {
-        self->point = *probe; /* a better place close by */
-        self->damping = JCAL_GN_DAMPING_START;
+    } else if (!jcal_hinge_same_pairing(&coarse->point, probe)) {
+        self->flip = place_of(probe);
+        self->has_flip = true;
+        if (better && may_turn) {
+            jcal_hinge_turn_round(self, coarse);
+            return true;
+        }
+    } else if (better && !has_joined(coarse, probe)) {
+        put(coarse, probe); /* a better place close by */
     } else {
         /* the estimate itself */
     }
+    return false;
 }
 
-void jcal_hinge_search(jcal_hinge_t *self)
+bool jcal_hinge_search(jcal_hinge_search_t *self, jcal_hinge_coarse_t *coarse, const jcal_hinge_config_t *cfg,
+                       const jcal_hinge_scope_t *scope)
 {
-    jcal_hinge_search_t *const search = &self->search;
-    if (!search->running) {
-        begin_probe(self);
-        return;
+    if (!self->running) {
+        begin_probe(self, coarse, cfg);
+        return false;
     }
-    jcal_hinge_point_t probe = point_at(&search->probe);
-    const float length = descend(self, &probe, &search->damping);
-    search->probe = place_of(&probe);
-    search->iterations = (uint8_t)(search->iterations + 1u);
-    const bool ended = (length < STEP_MIN_RAD) || (search->iterations >= PROBE_STEPS);
-    if (!ended && !has_joined(self, &probe)) {
-        return;
+    jcal_hinge_point_t probe = point_at(&self->probe);
+    const float length = descend(&coarse->moments, cfg, &probe, &self->damping);
+    self->probe = place_of(&probe);
+    self->iterations = (uint8_t)(self->iterations + 1u);
+    const bool ended = (length < STEP_MIN_RAD) || (self->iterations >= PROBE_STEPS);
+    if (!ended && !has_joined(coarse, &probe)) {
+        return false;
     }
-    search->running = false;
-    search->start = (uint8_t)(search->start + 1u);
-    jcal_hinge_obey(&probe, self->cfg.sign_hint);
-    file_probe(self, &probe);
-    if (search->start >= STARTS) {
-        search->start = 0u;
-        const bool counts = (self->excitation > 0.0f) && (search->rounds < UINT8_MAX);
-        search->rounds = counts ? (uint8_t)(search->rounds + 1u) : search->rounds;
+    self->running = false;
+    self->start = (uint8_t)(self->start + 1u);
+    jcal_hinge_obey(&probe, cfg->sign_hint, scope->kept_sign);
+    const bool may_turn = scope->pairing_is_free && (cfg->sign_hint == JCAL_SIGN_UNKNOWN);
+    const bool another = file_probe(self, coarse, cfg, may_turn, &probe);
+    if (self->start >= STARTS) {
+        self->start = 0u;
+        const bool counts = scope->joint_has_moved && (self->rounds < UINT8_MAX);
+        self->rounds = counts ? (uint8_t)(self->rounds + 1u) : self->rounds;
     }
+    return another;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Stream engine of the hinge: config, samples into sums, and the schedule of the work. Method: docs/METHOD.md.
+/// Stream engine of the hinge: samples into sums, and the schedule of the work. Method: docs/METHOD.md.
 #include "jointcal/hinge.h"
 
 #include "hinge/judge.h"
@@ -10,6 +10,7 @@
 #include "hinge/search.h"
 #include "hinge/slip.h"
 #include "hinge/stream.h"
+#include "joint/sign.h"
 #include "joint/watch.h"
 #include "jointcal/vec3.h"
 #include "math/clear.h"
@@ -22,14 +23,12 @@
 #include <stddef.h>
 
 #define MICROSECONDS 1e-6f
-#define DEGREE 0.0174532925f
 
 /// A sample stands for the time since the one before it, but never for more than this, s.
 #define STEP_MAX_S 0.05f
 
 /// Keeps the weight 1 / (|w1|^2 + |w2|^2 + eps) finite at rest, (rad/s)^2; docs/METHOD.md section 2.
 #define RATE_EPS 0.05f
-
 /// Time constant of the product of the rates, s.
 #define PRODUCT_TIME_S 0.2f
 
@@ -49,10 +48,8 @@
 
 /// Growth of the usual residual of the rates with them, squared: scale and misalignment of the gyroscopes.
 #define RATE_SHARE2 4e-4f
-
 /// Share of the accelerometers' assumed variance that changes within a second; the rest, biases say, is there all the time.
 #define WATCH_ACC_SHARE 0.3f
-
 /// Axes may be off by this, rad, beyond their bounds before a sensor is said to have moved.
 #define SLIP_RAD 0.06f
 
@@ -63,7 +60,6 @@
 
 /// Slices of work are paid for with time, so that the work per second does not depend on the rate: with four times as much once the
 /// calibration is ready and changes slowly.
-#define SLICES_PER_S 200.0f
 #define PRICE_READY 4.0f
 #define SLICES_MAX 10u
 /// A judgement, and a block of the refined axes that closes, cost more than other slices. Where slices are few, a block costs this
@@ -77,65 +73,25 @@
 /// With the slots of the default inbox.
 typedef char jcal_hinge_fits_its_budget[((sizeof(jcal_hinge_t) - sizeof(jcal_inbox_t)) <= (2048u - 232u)) ? 1 : -1];
 
-jcal_hinge_config_t jcal_hinge_config_default(void)
+/// Nothing is known yet, or no more.
+static void say_nothing_is_known(jcal_hinge_verdict_t *verdict)
 {
-    jcal_hinge_config_t config;
-    config.gate = jcal_gate_config_default();
-    config.max_bound_rad = 3.0f * DEGREE;
-    config.rate_mismatch = 0.002f;
-    config.gyr_noise_rad_s = 0.03f;
-    config.acc_noise_m_s2 = 1.5f;
-    config.lever_arm_m = 1.0f;
-    config.gyr_bias_rad_s = 0.007f;
-    config.acc_bias_m_s2 = 0.5f;
-    config.sign_hint = JCAL_SIGN_UNKNOWN;
-    config.slices_per_s = SLICES_PER_S;
-    return config;
-}
-
-typedef struct {
-    const char *name;
-    float value, low, high;
-} field_t;
-
-const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
-{
-    if (config == NULL) {
-        return "config";
-    }
-    const field_t fields[] = {
-        {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
-        {"rate_mismatch", config->rate_mismatch, 0.0f, 0.05f},
-        {"gyr_noise_rad_s", config->gyr_noise_rad_s, 1e-4f, 1.0f},
-        {"acc_noise_m_s2", config->acc_noise_m_s2, 1e-3f, 10.0f},
-        {"lever_arm_m", config->lever_arm_m, 0.0f, 5.0f},
-        {"gyr_bias_rad_s", config->gyr_bias_rad_s, 1e-5f, 0.2f},
-        {"acc_bias_m_s2", config->acc_bias_m_s2, 1e-4f, 5.0f},
-        {"slices_per_s", config->slices_per_s, 20.0f, 800.0f},
-    };
-    for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
-        if (!((fields[i].value >= fields[i].low) && (fields[i].value <= fields[i].high))) {
-            return fields[i].name;
-        }
-    }
-    const int hint = (int)config->sign_hint;
-    if ((hint < (int)JCAL_SIGN_UNKNOWN) || (hint > (int)JCAL_SIGN_OPPOSITE)) {
-        return "sign_hint";
-    }
-    return jcal_gate_config_check(&config->gate);
+    verdict->agreed = 0u;
+    verdict->bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
+    verdict->bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
+    verdict->status = (uint8_t)JCAL_COLLECTING;
+    verdict->reason = (uint8_t)JCAL_REASON_NO_DATA;
+    verdict->hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+    verdict->weak = (uint8_t)JCAL_WEAK_AXIS1;
 }
 
 /// Empties what was learnt of the joint: all that follows the inbox. Push, which may preempt this, does not touch it.
 static void clear(jcal_hinge_t *self)
 {
-    const size_t first = offsetof(jcal_hinge_t, moments);
+    const size_t first = offsetof(jcal_hinge_t, coarse);
     jcal_clear((unsigned char *)self + first, sizeof *self - first);
-    self->damping = JCAL_GN_DAMPING_START;
-    self->verdict.bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
-    self->verdict.bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
-    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
-    self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
-    self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+    self->coarse.damping = JCAL_GN_DAMPING_START;
+    say_nothing_is_known(&self->verdict);
 }
 
 void jcal_hinge_start(jcal_hinge_t *self, const jcal_hinge_config_t *config)
@@ -233,23 +189,23 @@ static void watch(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     const float difference = fabsf(sqrtf(sample->w1_2) - sqrtf(sample->w2_2));
     const float errors = (DIFFERENCE_SHARE * sqrtf(jcal_max(sample->w1_2, sample->w2_2))) + DIFFERENCE_NOISE_RAD_S;
     const float excess = jcal_max(difference - errors, 0.0f);
-    self->excitation += sample->dt_s * excess * excess;
-    self->motion += sample->dt_s * (sample->w1_2 + sample->w2_2);
-    self->weight_acc += sample->acc_weight;
-    self->weight_acc2 += sample->acc_weight * sample->acc_weight / sample->dt_s;
+    self->amount.excitation += sample->dt_s * excess * excess;
+    self->amount.motion += sample->dt_s * (sample->w1_2 + sample->w2_2);
+    self->amount.weight_acc += sample->acc_weight;
+    self->amount.weight_acc2 += sample->acc_weight * sample->acc_weight / sample->dt_s;
     self->rest_s = ((sample->w1_2 + sample->w2_2) < REST_RATE2) ? (self->rest_s + sample->dt_s) : 0.0f;
 }
 
 /// Halves all sums: nothing saturates, and old data count less.
 static void halve(jcal_hinge_t *self)
 {
-    jcal_sym_scale(self->moments.gyr, JCAL_HINGE_FEATURES, 0.5f);
-    jcal_sym_scale(self->moments.acc, 7u, 0.5f);
+    jcal_sym_scale(self->coarse.moments.gyr, JCAL_HINGE_FEATURES, 0.5f);
+    jcal_sym_scale(self->coarse.moments.acc, 7u, 0.5f);
     jcal_hinge_refine_fade(&self->refine, 0.5f);
-    self->excitation *= 0.5f;
-    self->motion *= 0.5f;
-    self->weight_acc *= 0.5f;
-    self->weight_acc2 *= 0.5f;
+    self->amount.excitation *= 0.5f;
+    self->amount.motion *= 0.5f;
+    self->amount.weight_acc *= 0.5f;
+    self->amount.weight_acc2 *= 0.5f;
 }
 
 /// Residuals of this sample at the refined axes, (24) and (25) of [OLS20], in units of what is usual.
@@ -260,7 +216,7 @@ static void watch_fit(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     const float rate2 = sample->w1_2 + sample->w2_2;
     const float motion_s = sample->dt_s * jcal_watch_motion(rate2);
     const float gyr = jcal_vec3_norm(jcal_vec3_cross(sample->w1, j1)) - jcal_vec3_norm(jcal_vec3_cross(sample->w2, j2));
-    const float acc = jcal_vec3_dot(sample->a1, j1) - jcal_vec3_dot(sample->a2, j2) - self->acc_constant_m_s2;
+    const float acc = jcal_vec3_dot(sample->a1, j1) - jcal_vec3_dot(sample->a2, j2) - self->coarse.acc_constant_m_s2;
     const float noise = self->cfg.gyr_noise_rad_s;
     jcal_watch_add(&self->watch, 0u, gyr * gyr / ((noise * noise) + (RATE_SHARE2 * rate2)), motion_s);
     jcal_watch_add(&self->watch, 1u, acc * acc / (WATCH_ACC_SHARE * acc_variance(self)), motion_s);
@@ -295,21 +251,67 @@ static bool sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
         (noise * noise * (sample->w1_2 + sample->w2_2 + RATE_EPS) * (1.0f + (self->rest_s * self->rest_s)));
     float z[JCAL_HINGE_FEATURES];
     jcal_hinge_features(sample->w1, sample->w2, z);
-    jcal_sym_rank1(self->moments.gyr, JCAL_HINGE_FEATURES, z, gyr_weight);
+    jcal_sym_rank1(self->coarse.moments.gyr, JCAL_HINGE_FEATURES, z, gyr_weight);
     const float y[7] = {sample->a1.x, sample->a1.y, sample->a1.z, -sample->a2.x, -sample->a2.y, -sample->a2.z, 1.0f};
-    jcal_sym_rank1(self->moments.acc, 7u, y, sample->acc_weight);
+    jcal_sym_rank1(self->coarse.moments.acc, 7u, y, sample->acc_weight);
     if (self->rest_s >= REST_MAX_S) {
         jcal_hinge_refine_interrupt(&self->refine);
-    } else if (self->has_point) {
-        closed = jcal_hinge_refine_add(self, sample);
+    } else if (self->coarse.has_point) {
+        closed = jcal_hinge_refine_add(&self->refine, &self->cfg, &self->coarse, sample);
         watch_fit(self, sample);
     } else {
         /* nothing to refine yet */
     }
-    if ((self->motion > MOTION_MAX) || (self->moments.acc[jcal_sym_at(6u, 6u)] > ACC_WEIGHT_MAX)) {
+    if ((self->amount.motion > MOTION_MAX) || (self->coarse.moments.acc[jcal_sym_at(6u, 6u)] > ACC_WEIGHT_MAX)) {
         halve(self);
     }
     return closed;
+}
+
+/// Another point is the estimate of the coarse search: what was judged was the old one.
+static void go_on_there(jcal_hinge_t *self)
+{
+    say_nothing_is_known(&self->verdict);
+    jcal_hinge_refine_go(&self->refine, &self->coarse.point);
+}
+
+void jcal_hinge_look_around(jcal_hinge_t *self)
+{
+    const jcal_hinge_scope_t scope = {!(self->refine.blocks > 0.0f), self->amount.excitation > 0.0f, self->kept_sign};
+    if (jcal_hinge_search(&self->search, &self->coarse, &self->cfg, &scope)) {
+        go_on_there(self);
+    }
+}
+
+void jcal_hinge_go_round(jcal_hinge_t *self)
+{
+    jcal_hinge_turn_round(&self->search, &self->coarse);
+    go_on_there(self);
+}
+
+/// That of axis 2 is reported with the sign of axis 1; what is kept of it is what the user's hint compares.
+static void keep_signs(jcal_hinge_t *self)
+{
+    const jcal_hinge_point_t *const point = &self->refine.point;
+    jcal_sign_keep(&self->kept_sign[0], point->axis1.j, self->cfg.axis1_toward);
+    jcal_sign_keep(&self->kept_sign[1], point->axis2.j, jcal_vec3(0.0f, 0.0f, 0.0f));
+}
+
+void jcal_hinge_take_stock(jcal_hinge_t *self)
+{
+    const jcal_hinge_evidence_t evidence = {.cfg = &self->cfg,
+                                            .coarse = &self->coarse,
+                                            .refine = &self->refine,
+                                            .search = &self->search,
+                                            .amount = &self->amount,
+                                            .complaint = jcal_gate_complaint(&self->gate),
+                                            .kept_sign = self->kept_sign};
+    if (jcal_hinge_judge(&evidence, &self->verdict)) {
+        jcal_hinge_go_round(self);
+    }
+    if (self->verdict.status == (uint8_t)JCAL_READY) {
+        keep_signs(self);
+    }
 }
 
 /// One slice of the cycle: 2 steps of the estimate, 5 slices of the global check, 1 judgement. Once the starts have
@@ -321,15 +323,15 @@ static void work(jcal_hinge_t *self)
     switch (self->slice % SLICES_PER_CYCLE) {
     case 0u:
     case SLICES_PER_CYCLE / 2u:
-        jcal_hinge_track(self);
+        jcal_hinge_track(&self->coarse, &self->cfg, &self->refine.point);
         break;
     case SLICES_PER_CYCLE - 1u:
-        jcal_hinge_judge(self);
+        jcal_hinge_take_stock(self);
         self->credit_s -= (JUDGE_SLICES - 1.0f) * slice_s(self);
         break;
     default:
         if (!rests) {
-            jcal_hinge_search(self);
+            jcal_hinge_look_around(self);
         }
         break;
     }

@@ -3,10 +3,11 @@
 /// Window engine of the hinge: config, storage, inbox, and the order of work per sample.
 #include "jointcal/hinge_window.h"
 
-#include "hinge/point.h"
+#include "hinge/judge.h"
 #include "hinge/stream.h"
 #include "hinge/window_cost.h"
 #include "hinge/window_solve.h"
+#include "joint/sign.h"
 #include "jointcal/vec3.h"
 #include "math/angle.h"
 #include "math/scalar.h"
@@ -228,11 +229,13 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
     for (uint32_t slice = 0u; slice < JCAL_HINGE_WINDOW_SLICES; ++slice) {
         jcal_hinge_window_solve_slice(self, &rows);
     }
-    const bool knew = self->guard.has_point;
+    const bool knew = self->guard.coarse.has_point;
     jcal_hinge_consume(&self->guard, &pair);
-    if (knew && !self->guard.has_point) { /* a sensor has moved: what was selected is of another joint */
+    if (knew && !self->guard.coarse.has_point) { /* a sensor has moved: what was selected is of another joint */
         empty(self);
     }
+    jcal_hinge_result_t result;
+    self->was_ready = (jcal_hinge_window_get(self, &result) == JCAL_OK) && (result.head.status == JCAL_READY);
     return JCAL_OK;
 }
 
@@ -266,12 +269,13 @@ static void judge_beside_guard(const jcal_hinge_window_t *self, jcal_hinge_resul
     }
     const bool same_pairing = (jcal_vec3_dot(guard1, result->axis1) * jcal_vec3_dot(guard2, result->axis2)) > 0.0f;
     const float worst_rad = jcal_max(result->uncertainty1_rad, result->uncertainty2_rad);
+    const float limit_rad = (self->was_ready ? JCAL_HINGE_HYSTERESIS : 1.0f) * self->cfg.hinge.max_bound_rad;
     if (!same_pairing) {
         result->head.status = JCAL_AMBIGUOUS;
         result->head.reason = JCAL_REASON_SIGN_OPEN;
         result->head.weak = JCAL_WEAK_SIGN;
         result->head.hint = JCAL_HINT_TILT_AXIS;
-    } else if (worst_rad > self->cfg.hinge.max_bound_rad) {
+    } else if (worst_rad > limit_rad) {
         result->head.status = JCAL_COLLECTING;
         result->head.reason = JCAL_REASON_UNCERTAIN;
         result->head.weak = (result->uncertainty1_rad >= worst_rad) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
@@ -281,13 +285,28 @@ static void judge_beside_guard(const jcal_hinge_window_t *self, jcal_hinge_resul
     }
 }
 
+/// This engine has no axes yet, whatever the guard knows of its own.
+static void say_no_axes(jcal_hinge_result_t *result)
+{
+    result->axis1 = jcal_vec3(0.0f, 0.0f, 0.0f);
+    result->axis2 = jcal_vec3(0.0f, 0.0f, 0.0f);
+    result->uncertainty1_rad = JCAL_BOUND_UNKNOWN_RAD;
+    result->uncertainty2_rad = JCAL_BOUND_UNKNOWN_RAD;
+    result->head.status = (result->head.status == JCAL_MOVED) ? JCAL_MOVED : JCAL_COLLECTING;
+    if (result->head.reason == JCAL_REASON_NONE) { /* the guard is ready: samples wait for the next full solve */
+        result->head.reason = JCAL_REASON_NO_DATA;
+        result->head.weak = JCAL_WEAK_AXIS1;
+        result->head.hint = JCAL_HINT_MOVE_JOINT;
+    }
+}
+
 jcal_status_t jcal_hinge_window_get(const jcal_hinge_window_t *self, jcal_hinge_result_t *out)
 {
     jcal_hinge_result_t result;
     if ((self == NULL) || (out == NULL) || (jcal_hinge_get(&self->guard, &result) != JCAL_OK)) {
         return JCAL_ERR_ARG;
     }
-    const float sign = jcal_hinge_main_sign(self->axes.j[0]);
+    const float sign = jcal_sign_of(self->axes.j[0], self->cfg.hinge.axis1_toward, self->guard.kept_sign[0]);
     result.head.engine = JCAL_ENGINE_WINDOW;
     result.axis1 = jcal_vec3_scale(self->axes.j[0], sign);
     result.axis2 = jcal_vec3_scale(self->axes.j[1], sign);
@@ -297,10 +316,10 @@ jcal_status_t jcal_hinge_window_get(const jcal_hinge_window_t *self, jcal_hinge_
     if (result.has_axes) {
         judge_beside_guard(self, &result);
     } else {
-        result.head.status = (result.head.status == JCAL_MOVED) ? JCAL_MOVED : JCAL_COLLECTING;
-        result.axis1 = jcal_vec3(0.0f, 0.0f, 0.0f);
-        result.axis2 = jcal_vec3(0.0f, 0.0f, 0.0f);
+        say_no_axes(&result);
     }
+    result.progress_axis1 = jcal_hinge_progress(result.uncertainty1_rad, self->cfg.hinge.max_bound_rad);
+    result.progress_axis2 = jcal_hinge_progress(result.uncertainty2_rad, self->cfg.hinge.max_bound_rad);
     *out = result;
     return JCAL_OK;
 }

@@ -5,21 +5,14 @@
 
 #include "math/scalar.h"
 #include "sample/clock.h"
+#include "sample/unit.h"
 
 #include <stddef.h>
 
-/// Square of the length of a quaternion, least and most: 1 -+ 0.05 in length.
-#define LENGTH2_MIN 0.9025f
-#define LENGTH2_MAX 1.1025f
-
-/// As in gate.c: time over which bad samples are counted, s, for samples that are this far apart.
+/// As in gate.c: share of bad samples that may be lived with, and the weight of the newest.
+#define BAD_SHARE_MAX 0.2f
 #define BAD_STEP 0.02f
 #define BAD_TIME_S 2.0f
-
-static float length2(jcal_quat_t q)
-{
-    return (q.w * q.w) + (q.x * q.x) + (q.y * q.y) + (q.z * q.z);
-}
 
 static bool same(jcal_quat_t a, jcal_quat_t b)
 {
@@ -36,8 +29,8 @@ static jcal_reject_t verdict(jcal_orientation_gate_t *self, const jcal_gate_conf
                              const jcal_orientation_pair_t *pair, float *dt_s)
 {
     *dt_s = 0.0f;
-    const float square1 = length2(pair->q1);
-    const float square2 = length2(pair->q2);
+    const float square1 = jcal_unit_length2(pair->q1);
+    const float square2 = jcal_unit_length2(pair->q2);
     if (!jcal_is_finite(square1) || !jcal_is_finite(square2)) {
         return JCAL_REJECT_NOT_FINITE;
     }
@@ -45,7 +38,7 @@ static jcal_reject_t verdict(jcal_orientation_gate_t *self, const jcal_gate_conf
     if (time == JCAL_REJECT_TIME_ORDER) {
         return time;
     }
-    if (!jcal_within(square1, LENGTH2_MIN, LENGTH2_MAX) || !jcal_within(square2, LENGTH2_MIN, LENGTH2_MAX)) {
+    if (!jcal_is_unit(pair->q1) || !jcal_is_unit(pair->q2)) {
         return JCAL_REJECT_OUT_OF_RANGE;
     }
     const bool begins = !self->has_last || (time == JCAL_REJECT_GAP);
@@ -75,9 +68,14 @@ jcal_reject_t jcal_orientation_gate_check(jcal_orientation_gate_t *self, const j
     if (outcome != JCAL_REJECT_NONE) {
         self->rejected_by[outcome] += 1u;
     }
-    const float bad = ((outcome == JCAL_REJECT_NONE) || (outcome == JCAL_REJECT_GAP)) ? 0.0f : 1.0f;
+    const float bad = (outcome == JCAL_REJECT_NONE) ? 0.0f : 1.0f;
     /* While a clock that began anew is not yet believed, samples count for their time. */
     const bool by_time = (outcome == JCAL_REJECT_TIME_ORDER) && (dt_s > 0.0f);
     self->bad_share += (by_time ? (dt_s / (dt_s + BAD_TIME_S)) : BAD_STEP) * (bad - self->bad_share);
     return outcome;
+}
+
+jcal_reason_t jcal_orientation_gate_complaint(const jcal_orientation_gate_t *self)
+{
+    return (self->bad_share > BAD_SHARE_MAX) ? JCAL_REASON_BAD_SAMPLES : JCAL_REASON_NONE;
 }

@@ -1,22 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Bounds and readiness of a 2-DoF joint. Private.
+/// Judges the estimate of the 2-DoF stream engine. Private.
 #ifndef JCAL_TWO_DOF_JUDGE_H
 #define JCAL_TWO_DOF_JUDGE_H
 
-#include "jointcal/two_dof.h"
+#include "two_dof/search.h"
+#include "two_dof/verdict.h"
 
-/// Judges the estimate; search.lin is that of the sums at the estimate, without the prior.
-void jcal_two_dof_judge(jcal_two_dof_t *self);
+/// What a judgement reads besides the config.
+typedef struct {
+    const jcal_two_dof_search_t *search;  ///< Its `lin` is that of the moments at the estimate, without the prior.
+    const jcal_two_dof_landscape_t *landscape;
+    float age_s;              ///< Mean age of what is in the moments.
+    jcal_reason_t complaint;  ///< Of the gate.
+} jcal_two_dof_case_t;
 
-/// True if it is time to forget. Then jcal_two_dof_fade_now, while search.lin is still that of the sums at the estimate, and
-/// jcal_two_dof_follow_drift.
-bool jcal_two_dof_fade_is_due(const jcal_two_dof_t *self);
-
-/// Fades all sums; while the status is ready, what they said of the axes goes to the prior.
-void jcal_two_dof_fade_now(jcal_two_dof_t *self);
-
-/// Follows the drift of the heading offset while the status is ready, and refers the sums to where it is by now.
-void jcal_two_dof_follow_drift(jcal_two_dof_t *self);
+/// verdict <- bounds and status of the estimate.
+void jcal_two_dof_judge(jcal_two_dof_verdict_t *verdict, const jcal_two_dof_config_t *cfg,
+                        const jcal_two_dof_case_t *of);
 
 #endif /* JCAL_TWO_DOF_JUDGE_H */

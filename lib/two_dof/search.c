@@ -5,11 +5,9 @@
 
 #include "math/scalar.h"
 #include "math/solve.h"
-#include "two_dof/judge.h"
 #include "two_dof/model.h"
 #include "two_dof/prior.h"
 #include "two_dof/starts.h"
-#include "two_dof/stream.h"
 
 /// So many starts are tried before the exchanged axes are once more.
 #define EXCHANGE_EVERY 1u
@@ -30,28 +28,27 @@
 /// A new minimum must be better than the estimate by this much, in units of the cost's standard deviation.
 #define BETTER 1.0f
 
-/// Turns of the cycle.
-enum { TURN_TRACK = 0, TURN_JUDGE = 1, TURN_FADE = 2, TURN_DRIFT = 3, TURN_RIVAL = 4, TURN_PROBE = 5, TURNS = 9 };
-
 /// First half of a linearisation: the rotation-based form.
-static void first_half(jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
+static void first_half(jcal_two_dof_search_t *search, const jcal_two_dof_landscape_t *landscape,
+                       const jcal_two_dof_point_t *point)
 {
-    jcal_two_dof_form(self->moments.rotation, point, &self->search.lin);
-    self->search.half = true;
+    jcal_two_dof_form(landscape->moments->rotation, point, &search->lin);
+    search->half = true;
 }
 
 /// Second half: the data's cost, in units of what the residuals show, so that it can be compared with the prior.
-static void second_half(jcal_two_dof_t *self, const jcal_two_dof_point_t *point, float *parts)
+static void second_half(jcal_two_dof_search_t *search, const jcal_two_dof_landscape_t *landscape,
+                        const jcal_two_dof_point_t *point, float *parts)
 {
-    jcal_two_dof_lin_t *const lin = &self->search.lin;
-    jcal_two_dof_combine(&self->moments, self->cfg.constraint, point, lin, parts);
-    const float scale = 1.0f / self->verdict.excess;
+    jcal_two_dof_lin_t *const lin = &search->lin;
+    jcal_two_dof_combine(landscape->moments, landscape->constraint, point, lin, parts);
+    const float scale = 1.0f / landscape->excess;
     lin->cost *= scale;
     for (unsigned i = 0u; i < JCAL_TWO_DOF_UNKNOWNS; ++i) {
         lin->gradient[i] *= scale;
     }
     jcal_sym_scale(lin->matrix, JCAL_TWO_DOF_UNKNOWNS, scale);
-    self->search.half = false;
+    search->half = false;
 }
 
 static void begin(jcal_two_dof_probe_t *probe, const jcal_two_dof_point_t *point)
@@ -88,12 +85,12 @@ static float make_step(jcal_two_dof_probe_t *probe, jcal_gn_t *gn, const jcal_tw
 }
 
 /// Judges the probe's last step and makes the next one. Samples came in meanwhile: costs are compared per second of motion.
-static float advance(jcal_two_dof_t *self)
+static float advance(jcal_two_dof_search_t *search, float moving_s)
 {
-    jcal_two_dof_probe_t *const probe = &self->search.probe;
-    const jcal_two_dof_lin_t *const lin = &self->search.lin;
+    jcal_two_dof_probe_t *const probe = &search->probe;
+    const jcal_two_dof_lin_t *const lin = &search->lin;
     jcal_gn_t gn = {probe->damping};
-    const float change = 0.5f * (lin->cost - (probe->from_cost * self->moving_s));
+    const float change = 0.5f * (lin->cost - (probe->from_cost * moving_s));
     if ((probe->steps > 0u) && (probe->predicted < 0.0f)) {
         const bool kept = jcal_gn_judge(&gn, probe->predicted, change);
         if (!kept && (change > (HARMLESS_SHARE * lin->cost))) {
@@ -108,28 +105,27 @@ static float advance(jcal_two_dof_t *self)
     float d[JCAL_TWO_DOF_UNKNOWNS];
     const float length = make_step(probe, &gn, lin, d);
     probe->damping = gn.damping;
-    probe->from_cost = lin->cost / self->moving_s;
+    probe->from_cost = lin->cost / moving_s;
     return length;
 }
 
-/// Costs of the estimate and of the rival, prior included, at the same time.
-static float cost_at(const jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
+/// Cost at a place, prior included.
+static float cost_at(const jcal_two_dof_landscape_t *landscape, const jcal_two_dof_point_t *point)
 {
     jcal_two_dof_guess_t guess = {point->heading, 0.0f};
-    jcal_two_dof_costs(&self->moments, self->cfg.constraint, point, &guess, 1u);
-    return (guess.cost / self->verdict.excess) + jcal_two_dof_prior_cost(&self->prior, point);
+    jcal_two_dof_costs(landscape->moments, landscape->constraint, point, &guess, 1u);
+    return (guess.cost / landscape->excess) + jcal_two_dof_prior_cost(landscape->prior, point);
 }
 
-static void begin_probe(jcal_two_dof_t *self)
+static void begin_probe(jcal_two_dof_search_t *search, const jcal_two_dof_landscape_t *landscape)
 {
-    jcal_two_dof_search_t *const search = &self->search;
-    if (self->has_best && (search->since_exchange >= EXCHANGE_EVERY)) {
+    search->probing = true;
+    if (search->has_best && (search->since_exchange >= EXCHANGE_EVERY)) {
         search->since_exchange = 0u;
         search->exchanges = (uint8_t)((search->exchanges < UINT8_MAX) ? (search->exchanges + 1u) : UINT8_MAX);
-        const jcal_orientation_pair_t *const pair = &self->kept.last[0];
-        const jcal_two_dof_point_t other = jcal_two_dof_exchanged(&self->best.point, pair->q1, pair->q2);
+        const jcal_orientation_pair_t *const pose = landscape->pose;
+        const jcal_two_dof_point_t other = jcal_two_dof_exchanged(&search->best.point, pose->q1, pose->q2);
         begin(&search->probe, &other);
-        search->probing = true;
         return;
     }
     search->since_exchange = (uint8_t)(search->since_exchange + 1u);
@@ -139,65 +135,50 @@ static void begin_probe(jcal_two_dof_t *self)
         guesses[i].heading = jcal_two_dof_start_headings()[i];
     }
     jcal_two_dof_point_t point = jcal_two_dof_start(search->start);
-    jcal_two_dof_costs(&self->moments, self->cfg.constraint, &point, guesses, JCAL_TWO_DOF_HEADINGS);
+    jcal_two_dof_costs(landscape->moments, landscape->constraint, &point, guesses, JCAL_TWO_DOF_HEADINGS);
     for (unsigned i = 0u; i < JCAL_TWO_DOF_HEADINGS; ++i) {
         costs[i] = guesses[i].cost;
     }
     point.heading = guesses[jcal_two_dof_least(costs)].heading;
     begin(&search->probe, &point);
     search->start = jcal_two_dof_start_after(search->start);
-    search->probing = true;
 }
 
-/// Makes a point the estimate. If the one before it was ready, the joint is another one now.
-static void adopt(jcal_two_dof_t *self, const jcal_two_dof_point_t *point)
+/// Makes a point the estimate.
+static void adopt(jcal_two_dof_search_t *search, const jcal_two_dof_point_t *point, float cost)
 {
-    if (self->watch.on) {
-        jcal_two_dof_begin_anew(self, JCAL_MOVED);
-        return;
-    }
-    begin(&self->best, point);
-    self->has_best = true;
-    self->heading_then = (jcal_plane_t){0.0f, 0.0f};
-    self->drift_rad_s = 0.0f;
-    self->search.agreed = 0u;
-    self->search.exchanges = 0u;
-    if (self->verdict.status != (uint8_t)JCAL_MOVED) {
-        self->verdict.status = (uint8_t)JCAL_COLLECTING;
-    }
-    self->verdict.reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+    begin(&search->best, point);
+    search->has_best = true;
+    search->exchanges = 0u;
+    search->cost = cost;
 }
 
 /// Files what a finished probe found: the estimate itself, a better minimum or a rival. Its cost is that of its last linearisation
 /// and what its last step promised.
-static void file_probe(jcal_two_dof_t *self)
+static jcal_two_dof_found_t file_probe(jcal_two_dof_search_t *search)
 {
-    jcal_two_dof_search_t *const search = &self->search;
     const jcal_two_dof_point_t *const point = &search->probe.point;
     const float cost = search->lin.cost + (2.0f * search->probe.predicted);
     search->tried = (uint8_t)((search->tried < UINT8_MAX) ? (search->tried + 1u) : UINT8_MAX);
     search->probing = false;
-    if (!self->has_best) {
-        adopt(self, point);
-        search->cost = cost;
-        return;
+    if (!search->has_best) {
+        adopt(search, point, cost);
+        return JCAL_TWO_DOF_ESTIMATE;
     }
     const bool better = cost < (search->cost - BETTER);
-    if (jcal_two_dof_is_near(&self->best.point, point, JCAL_TWO_DOF_SAME_COSINE)) {
+    if (jcal_two_dof_is_near(&search->best.point, point, JCAL_TWO_DOF_SAME_COSINE)) {
         if (better) {
             jcal_two_dof_point_t aligned = *point; /* the senses stay: the mean of the sine goes with them */
-            aligned.j1 = jcal_two_dof_in_sense_of(point->j1, self->best.point.j1);
-            aligned.j2 = jcal_two_dof_in_sense_of(point->j2, self->best.point.j2);
-            begin(&self->best, &aligned);
+            aligned.j1 = jcal_two_dof_in_sense_of(point->j1, search->best.point.j1);
+            aligned.j2 = jcal_two_dof_in_sense_of(point->j2, search->best.point.j2);
+            begin(&search->best, &aligned);
         }
     } else if (better) {
-        const jcal_two_dof_point_t rival = self->best.point;
-        const float rival_cost = search->cost;
-        adopt(self, point);
-        search->rival = rival;
-        search->rival_cost = rival_cost;
-        search->has_rival = self->has_best;
-        search->cost = cost;
+        search->rival = search->best.point;
+        search->rival_cost = search->cost;
+        search->has_rival = true;
+        adopt(search, point, cost);
+        return JCAL_TWO_DOF_ESTIMATE;
     } else if (!search->has_rival || (cost < search->rival_cost)) {
         search->rival = *point;
         search->rival_cost = cost;
@@ -205,94 +186,62 @@ static void file_probe(jcal_two_dof_t *self)
     } else {
         /* neither the best nor the second */
     }
+    return JCAL_TWO_DOF_DONE;
 }
 
 /// True if the next steps would have to gain several times what the last one promised to come near the estimate's cost.
-static bool is_hopeless(const jcal_two_dof_t *self)
+static bool is_hopeless(const jcal_two_dof_search_t *search)
 {
-    const jcal_two_dof_search_t *const search = &self->search;
     const float hoped = search->lin.cost + (HOPE * 2.0f * search->probe.predicted);
-    return self->has_best && (search->probe.steps >= HOPELESS_STEPS) && (hoped > (search->cost + HOPELESS_GAP));
+    return search->has_best && (search->probe.steps >= HOPELESS_STEPS) && (hoped > (search->cost + HOPELESS_GAP));
 }
 
-static void probe(jcal_two_dof_t *self)
+jcal_two_dof_found_t jcal_two_dof_probe(jcal_two_dof_search_t *search, const jcal_two_dof_landscape_t *landscape)
 {
-    jcal_two_dof_search_t *const search = &self->search;
-    jcal_two_dof_point_t *const point = &search->probe.point;
+    const jcal_two_dof_point_t *const point = &search->probe.point;
     if (!search->probing) {
-        begin_probe(self);
-    } else if (!search->half) {
-        first_half(self, point);
-        return;
-    } else {
-        second_half(self, point, NULL);
-        jcal_two_dof_prior_apply(&self->prior, point, &search->lin, &search->lin);
-        const float length = advance(self);
-        search->probe.steps = (uint8_t)(search->probe.steps + 1u);
-        const bool ended = (length < STEP_MIN_RAD) || (search->probe.steps >= PROBE_STEPS) || is_hopeless(self);
-        if (ended || (self->has_best && jcal_two_dof_is_near(&self->best.point, point, JCAL_TWO_DOF_JOINED_COSINE))) {
-            file_probe(self);
-        }
+        begin_probe(search, landscape);
+        return JCAL_TWO_DOF_DONE;
     }
-    search->turn = (uint8_t)((search->turn + 1u) % TURNS);
+    if (!search->half) {
+        first_half(search, landscape, point);
+        return JCAL_TWO_DOF_HALF_DONE;
+    }
+    second_half(search, landscape, point, NULL);
+    jcal_two_dof_prior_apply(landscape->prior, point, &search->lin, &search->lin);
+    const float length = advance(search, landscape->moving_s);
+    search->probe.steps = (uint8_t)(search->probe.steps + 1u);
+    const bool joined =
+        search->has_best && jcal_two_dof_is_near(&search->best.point, point, JCAL_TWO_DOF_JOINED_COSINE);
+    const bool ended = (length < STEP_MIN_RAD) || (search->probe.steps >= PROBE_STEPS) || is_hopeless(search);
+    return (ended || joined) ? file_probe(search) : JCAL_TWO_DOF_DONE;
 }
 
-static void track(jcal_two_dof_t *self)
+jcal_two_dof_found_t jcal_two_dof_track(jcal_two_dof_search_t *search, const jcal_two_dof_landscape_t *landscape)
 {
-    jcal_two_dof_search_t *const search = &self->search;
     if (!search->half) {
-        first_half(self, &self->best.point);
-        return;
+        first_half(search, landscape, &search->best.point);
+        return JCAL_TWO_DOF_HALF_DONE;
     }
-    second_half(self, &self->best.point, search->parts);
+    second_half(search, landscape, &search->best.point, search->parts);
     jcal_two_dof_lin_t all;
-    jcal_two_dof_prior_apply(&self->prior, &self->best.point, &search->lin, &all);
+    jcal_two_dof_prior_apply(landscape->prior, &search->best.point, &search->lin, &all);
     jcal_gn_t gn = jcal_gn_begin();
     float d[JCAL_TWO_DOF_UNKNOWNS];
-    (void)make_step(&self->best, &gn, &all, d);
+    (void)make_step(&search->best, &gn, &all, d);
     float on[JCAL_TWO_DOF_UNKNOWNS];
     jcal_sym_times(search->lin.matrix, JCAL_TWO_DOF_UNKNOWNS, d, on);
     for (unsigned i = 0u; i < JCAL_TWO_DOF_UNKNOWNS; ++i) {
         search->lin.gradient[i] += on[i]; /* to first order that at the new place */
     }
     search->cost = all.cost;
-    search->turn = TURN_JUDGE;
+    return JCAL_TWO_DOF_DONE;
 }
 
-void jcal_two_dof_work(jcal_two_dof_t *self)
+void jcal_two_dof_compare(jcal_two_dof_search_t *search, const jcal_two_dof_landscape_t *landscape)
 {
-    jcal_two_dof_search_t *const search = &self->search;
-    if (!(self->moving_s > 0.0f)) {
-        return;
-    }
-    if (!self->has_best && (search->turn < TURN_PROBE)) {
-        search->turn = TURN_PROBE;
-    }
-    switch (search->turn) {
-    case TURN_TRACK:
-        track(self);
-        break;
-    case TURN_JUDGE:
-        jcal_two_dof_judge(self);
-        search->turn = jcal_two_dof_fade_is_due(self) ? TURN_FADE : TURN_RIVAL;
-        break;
-    case TURN_FADE:
-        jcal_two_dof_fade_now(self);
-        search->turn = TURN_DRIFT;
-        break;
-    case TURN_DRIFT:
-        jcal_two_dof_follow_drift(self);
-        search->turn = TURN_RIVAL;
-        break;
-    case TURN_RIVAL:
-        if (search->has_rival) {
-            search->rival_cost = cost_at(self, &search->rival);
-            search->has_rival = !jcal_two_dof_is_near(&self->best.point, &search->rival, JCAL_TWO_DOF_SAME_COSINE);
-        }
-        search->turn = TURN_PROBE;
-        break;
-    default:
-        probe(self);
-        break;
+    if (search->has_rival) {
+        search->rival_cost = cost_at(landscape, &search->rival);
+        search->has_rival = !jcal_two_dof_is_near(&search->best.point, &search->rival, JCAL_TWO_DOF_SAME_COSINE);
     }
 }

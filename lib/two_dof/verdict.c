@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Bounds, readiness and result of a 2-DoF joint. See two_dof/verdict.h.
+/// Bounds and readiness of a 2-DoF joint. See two_dof/verdict.h.
 #include "two_dof/verdict.h"
 
+#include "joint/hysteresis.h"
+#include "joint/sign.h"
 #include "math/angle.h"
 #include "math/chol.h"
 #include "math/clear.h"
@@ -34,10 +36,6 @@
 #define AGREED_MIN 3u
 /// Least motion, s.
 #define MOVING_MIN_S 2.0f
-/// A bound may grow by this before ready is lost.
-#define HYSTERESIS 1.2f
-/// Share of bad samples.
-#define BAD_SHARE_MAX 0.2f
 
 /// Residuals, squared, are never taken for less than this share of what the config calls usual.
 #define EXCESS_MIN 0.35f
@@ -134,10 +132,10 @@ static jcal_calibration_t missing(jcal_two_dof_verdict_t *verdict, const jcal_tw
                                   const jcal_two_dof_evidence_t *evidence, const bounds_t *bounds, float misfit)
 {
     const bool was_ready = verdict->status == (uint8_t)JCAL_READY;
-    const float limit = cfg->max_bound_rad * (was_ready ? HYSTERESIS : 1.0f);
+    const float limit = cfg->max_bound_rad * (was_ready ? JCAL_HYSTERESIS : 1.0f);
     const jcal_weak_t weak = weakest(bounds, limit);
-    if (evidence->bad_share > BAD_SHARE_MAX) {
-        say(verdict, weak, JCAL_HINT_CHECK_SENSORS, JCAL_REASON_BAD_SAMPLES);
+    if (evidence->complaint != JCAL_REASON_NONE) {
+        say(verdict, weak, JCAL_HINT_CHECK_SENSORS, evidence->complaint);
         return JCAL_COLLECTING;
     }
     if (!was_ready && (evidence->moving_s < MOVING_MIN_S)) { /* `moved` stays until there is something new to say */
@@ -177,7 +175,7 @@ void jcal_two_dof_verdict_begin(jcal_two_dof_verdict_t *verdict, jcal_calibratio
 }
 
 void jcal_two_dof_conclude(jcal_two_dof_verdict_t *verdict, const jcal_two_dof_config_t *cfg,
-                           const jcal_two_dof_evidence_t *evidence, uint8_t *agreed)
+                           const jcal_two_dof_evidence_t *evidence)
 {
     const float misfit = misfit_of(cfg, evidence);
     const bounds_t bounds = bounds_of(cfg, evidence);
@@ -188,11 +186,11 @@ void jcal_two_dof_conclude(jcal_two_dof_verdict_t *verdict, const jcal_two_dof_c
     verdict->sine = evidence->sine;
     const jcal_calibration_t found = missing(verdict, cfg, evidence, &bounds, misfit);
     if (found != JCAL_READY) {
-        *agreed = 0u;
+        verdict->agreed = 0u;
         verdict->status = (uint8_t)found;
     } else if (verdict->status != (uint8_t)JCAL_READY) {
-        *agreed = (uint8_t)(*agreed + 1u);
-        if (*agreed >= AGREED_MIN) {
+        verdict->agreed = (uint8_t)(verdict->agreed + 1u);
+        if (verdict->agreed >= AGREED_MIN) {
             verdict->status = (uint8_t)JCAL_READY;
         } else {
             say(verdict, JCAL_WEAK_NONE, JCAL_HINT_MOVE_JOINT, JCAL_REASON_UNCERTAIN);
@@ -200,56 +198,9 @@ void jcal_two_dof_conclude(jcal_two_dof_verdict_t *verdict, const jcal_two_dof_c
     } else {
         /* ready, and stays so */
     }
+    if (verdict->status == (uint8_t)JCAL_READY) {
+        jcal_sign_keep(&verdict->sign1, evidence->point->j1, cfg->axis1_toward);
+        jcal_sign_keep(&verdict->sign2, evidence->point->j2, cfg->axis2_toward);
+    }
     verdict->excess = jcal_max(misfit, EXCESS_MIN);
-}
-
-static float progress(float bound_rad, float max_bound_rad)
-{
-    return (bound_rad > 0.0f) ? jcal_min(max_bound_rad / bound_rad, 1.0f) : 1.0f;
-}
-
-static float largest_component(jcal_vec3_t v)
-{
-    const float xy = (fabsf(v.x) >= fabsf(v.y)) ? v.x : v.y;
-    return (fabsf(xy) >= fabsf(v.z)) ? xy : v.z;
-}
-
-static void put_estimate(const jcal_two_dof_point_t *point, float sine, jcal_two_dof_result_t *out)
-{
-    const float sign1 = (largest_component(point->j1) < 0.0f) ? -1.0f : 1.0f;
-    const float sign2 = (largest_component(point->j2) < 0.0f) ? -1.0f : 1.0f;
-    out->axis1 = jcal_vec3_scale(point->j1, sign1);
-    out->axis2 = jcal_vec3_scale(point->j2, sign2);
-    out->heading_offset_rad = jcal_atan2(point->heading.im, point->heading.re);
-    out->carrying_angle_rad = sign1 * sign2 * jcal_atan2(sine, sqrtf(jcal_max(1.0f - (sine * sine), 0.0f)));
-}
-
-void jcal_two_dof_report(const jcal_two_dof_verdict_t *verdict, const jcal_two_dof_config_t *cfg,
-                         const jcal_two_dof_point_t *point, jcal_two_dof_result_t *out)
-{
-    const float limit = cfg->max_bound_rad;
-    *out = (jcal_two_dof_result_t){0};
-    out->head.status = (jcal_calibration_t)verdict->status;
-    out->head.weak = (jcal_weak_t)verdict->weak;
-    out->head.hint = (jcal_hint_t)verdict->hint;
-    out->head.reason = (jcal_reason_t)verdict->reason;
-    out->uncertainty1_rad = verdict->bound1_rad;
-    out->uncertainty2_rad = verdict->bound2_rad;
-    out->uncertainty_heading_rad = verdict->bound_heading_rad;
-    if (point != NULL) {
-        out->has_axes = true;
-        out->progress_axis1 = progress(verdict->bound1_rad, limit);
-        out->progress_axis2 = progress(verdict->bound2_rad, limit);
-        out->progress_heading = progress(verdict->bound_heading_rad, limit);
-        put_estimate(point, verdict->sine, out);
-    }
-}
-
-void jcal_two_dof_report_gate(const jcal_orientation_gate_t *gate, jcal_two_dof_result_t *out)
-{
-    out->head.samples = gate->samples;
-    for (size_t i = 0u; i < (size_t)JCAL_REJECT_COUNT; ++i) {
-        out->head.rejected_by[i] = gate->rejected_by[i];
-        out->head.rejected += out->head.rejected_by[i];
-    }
 }

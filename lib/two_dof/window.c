@@ -1,17 +1,24 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Window engine of the 2-DoF joint: config, storage, and orientations into rows.
+/// Window engine of the 2-DoF joint: storage, and orientations into rows.
 #include "jointcal/two_dof_window.h"
 
 #include "math/clear.h"
 #include "sample/clock.h"
 #include "sample/ring.h"
 #include "two_dof/kept.h"
+#include "two_dof/result.h"
 #include "two_dof/verdict.h"
 #include "two_dof/window_solve.h"
 
 /// Orientations are kept this far apart, us: 20 Hz, section 4.4 of [LAI22].
 #define KEEP_US 50000u
+
+/// False for null and for what init has never prepared: all zero, say.
+static bool is_prepared(const jcal_two_dof_window_t *self)
+{
+    return (self != NULL) && (self->storage != NULL) && (self->cfg.n_max > 0u);
+}
 
 static jcal_two_dof_row_t *rows_of(const jcal_two_dof_window_t *self)
 {
@@ -21,31 +28,6 @@ static jcal_two_dof_row_t *rows_of(const jcal_two_dof_window_t *self)
 static bool storage_fits(const jcal_two_dof_window_config_t *cfg, const void *storage, size_t bytes)
 {
     return (((uintptr_t)storage % sizeof(uint64_t)) == 0u) && (bytes >= jcal_two_dof_window_storage_bytes(cfg));
-}
-
-jcal_two_dof_window_config_t jcal_two_dof_window_config_default(void)
-{
-    jcal_two_dof_window_config_t config = {
-        .two_dof = jcal_two_dof_config_default(),
-        .n_max = 200u,
-    };
-    config.two_dof.constraint = JCAL_CONSTRAINT_ROTATION;
-    return config;
-}
-
-const char *jcal_two_dof_window_config_check(const jcal_two_dof_window_config_t *config)
-{
-    if (config == NULL) {
-        return "config";
-    }
-    const char *const wrong = jcal_two_dof_config_check(&config->two_dof);
-    if (wrong != NULL) {
-        return wrong;
-    }
-    if (config->two_dof.constraint == JCAL_CONSTRAINT_COMBINED) {
-        return "constraint";
-    }
-    return ((config->n_max < 20u) || (config->n_max > 10000u)) ? "n_max" : NULL;
 }
 
 size_t jcal_two_dof_window_storage_bytes(const jcal_two_dof_window_config_t *config)
@@ -84,7 +66,7 @@ jcal_status_t jcal_two_dof_window_init(jcal_two_dof_window_t *self, const jcal_t
 
 jcal_status_t jcal_two_dof_window_attach(jcal_two_dof_window_t *self, void *storage, size_t storage_bytes)
 {
-    if ((self == NULL) || (storage == NULL)) {
+    if ((self == NULL) || (self->cfg.n_max == 0u) || (storage == NULL)) {
         return JCAL_ERR_ARG;
     }
     if (!storage_fits(&self->cfg, storage, storage_bytes)) {
@@ -96,7 +78,7 @@ jcal_status_t jcal_two_dof_window_attach(jcal_two_dof_window_t *self, void *stor
 
 jcal_status_t jcal_two_dof_window_reset(jcal_two_dof_window_t *self)
 {
-    if (self == NULL) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
     forget(self);
@@ -105,7 +87,7 @@ jcal_status_t jcal_two_dof_window_reset(jcal_two_dof_window_t *self)
 
 jcal_status_t jcal_two_dof_window_push(jcal_two_dof_window_t *self, const jcal_orientation_pair_t *pair)
 {
-    if ((self == NULL) || (pair == NULL)) {
+    if (!is_prepared(self) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
     return jcal_two_dof_keep(&self->kept, &self->gate, &self->cfg.two_dof.gate, pair, KEEP_US);
@@ -127,7 +109,7 @@ static void keep_times(jcal_two_dof_window_t *self, uint64_t t_us)
 
 jcal_status_t jcal_two_dof_window_step(jcal_two_dof_window_t *self)
 {
-    if ((self == NULL) || (self->storage == NULL)) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
     unsigned pushes;
@@ -151,8 +133,9 @@ jcal_status_t jcal_two_dof_window_step(jcal_two_dof_window_t *self)
     self->next = (uint16_t)((self->next + 1u) % n_max);
     self->count = (uint16_t)((self->count < n_max) ? (self->count + 1u) : n_max);
     if ((2u * (uint32_t)self->count) >= n_max) {
-        const jcal_two_dof_rows_t rows = {rows_of(self), self->count, &self->cfg.two_dof};
-        jcal_two_dof_window_work(self, &rows, newest);
+        const jcal_two_dof_rows_t rows = {rows_of(self), self->count, &self->cfg.two_dof,
+                                          jcal_orientation_gate_complaint(&self->gate)};
+        jcal_two_dof_window_work(&self->search, &self->verdict, &rows, newest);
     }
     return JCAL_OK;
 }

@@ -11,7 +11,9 @@
 #ifndef JCAL_TWO_DOF_WINDOW_COST_H
 #define JCAL_TWO_DOF_WINDOW_COST_H
 
-#include "jointcal/two_dof_window.h"
+#include "jointcal/private/two_dof/row.h"
+#include "jointcal/status.h"
+#include "jointcal/two_dof_config.h"
 #include "math/sym.h"
 #include "two_dof/point.h"
 
@@ -23,6 +25,7 @@ typedef struct {
     const jcal_two_dof_row_t *rows;
     size_t count;
     const jcal_two_dof_config_t *cfg;
+    jcal_reason_t complaint;  ///< Of the gate.
 } jcal_two_dof_rows_t;
 
 /// A residual and its derivatives.

@@ -131,19 +131,21 @@ static void begin_probe(jcal_two_dof_window_search_t *search, const jcal_two_dof
 }
 
 /// Makes a minimum the estimate; the one before it becomes the rival.
-static void adopt(jcal_two_dof_window_t *self, const jcal_two_dof_trace_t *found)
+static void adopt(jcal_two_dof_window_search_t *search, jcal_two_dof_verdict_t *verdict,
+                  const jcal_two_dof_trace_t *found)
 {
-    jcal_two_dof_window_search_t *const search = &self->search;
     const jcal_two_dof_trace_t next = *found; /* it may be the rival */
     search->rival = search->best;
     search->has_rival = search->has_best;
     search->best = next;
     search->has_best = true;
-    search->agreed = 0u;
     search->exchanges = 0u;
-    self->verdict.status = (uint8_t)JCAL_COLLECTING;
-    self->verdict.reason = (uint8_t)JCAL_REASON_UNCERTAIN;
-    self->verdict.sine = next.sine;
+    verdict->agreed = 0u;
+    verdict->status = (uint8_t)JCAL_COLLECTING;
+    verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+    verdict->sine = next.sine;
+    verdict->sign1 = 0; /* other axes */
+    verdict->sign2 = 0;
 }
 
 /// The probe becomes the estimate that it is close to; the senses of the axes stay.
@@ -159,22 +161,21 @@ static void refine(jcal_two_dof_window_search_t *search)
 }
 
 /// Files what a finished probe found: the estimate itself, a better minimum or a rival.
-static void file_probe(jcal_two_dof_window_t *self)
+static void file_probe(jcal_two_dof_window_search_t *search, jcal_two_dof_verdict_t *verdict)
 {
-    jcal_two_dof_window_search_t *const search = &self->search;
     const jcal_two_dof_trace_t *const probe = &search->probe;
     search->tried = (uint8_t)((search->tried < UINT8_MAX) ? (search->tried + 1u) : UINT8_MAX);
     search->probing = false;
     if (!search->has_best) {
-        adopt(self, probe);
+        adopt(search, verdict, probe);
         return;
     }
-    const bool better = probe->cost < (search->best.cost - (BETTER * self->verdict.excess));
+    const bool better = probe->cost < (search->best.cost - (BETTER * verdict->excess));
     const bool same = jcal_two_dof_is_near(&search->best.point, &probe->point, JCAL_TWO_DOF_SAME_COSINE);
     if (same && better) {
         refine(search);
     } else if (better) {
-        adopt(self, probe);
+        adopt(search, verdict, probe);
     } else if (!same && (!search->has_rival || (probe->cost < search->rival.cost))) {
         search->rival = *probe;
         search->has_rival = true;
@@ -184,18 +185,18 @@ static void file_probe(jcal_two_dof_window_t *self)
 }
 
 /// True if the next steps would have to gain several times what the last one promised to come near the estimate's cost.
-static bool is_hopeless(const jcal_two_dof_window_t *self, const jcal_two_dof_window_sums_t *sums)
+static bool is_hopeless(const jcal_two_dof_window_search_t *search, const jcal_two_dof_window_sums_t *sums,
+                        float excess)
 {
-    const jcal_two_dof_window_search_t *const search = &self->search;
     const float share = 1.0f + (HOPE * 2.0f * search->probe.predicted / (sums->cost + FLT_MIN));
     return search->has_best && (search->probe.steps >= HOPELESS_STEPS) &&
-           ((sums->weighted * share) > (search->best.cost + (HOPELESS_GAP * self->verdict.excess)));
+           ((sums->weighted * share) > (search->best.cost + (HOPELESS_GAP * excess)));
 }
 
 /// One pass of the probe.
-static void probe(jcal_two_dof_window_t *self, const jcal_two_dof_rows_t *rows, const jcal_two_dof_row_t *newest)
+static void probe(jcal_two_dof_window_search_t *search, jcal_two_dof_verdict_t *verdict,
+                  const jcal_two_dof_rows_t *rows, const jcal_two_dof_row_t *newest)
 {
-    jcal_two_dof_window_search_t *const search = &self->search;
     if (!search->probing) {
         begin_probe(search, rows, newest);
         return;
@@ -207,21 +208,22 @@ static void probe(jcal_two_dof_window_t *self, const jcal_two_dof_rows_t *rows, 
     trace->steps = (uint8_t)(trace->steps + 1u);
     const bool joined =
         search->has_best && jcal_two_dof_is_near(&search->best.point, &trace->point, JCAL_TWO_DOF_JOINED_COSINE);
-    if ((length < STEP_MIN_RAD) || (trace->steps >= PROBE_STEPS) || joined || is_hopeless(self, &sums)) {
-        file_probe(self);
+    if ((length < STEP_MIN_RAD) || (trace->steps >= PROBE_STEPS) || joined ||
+        is_hopeless(search, &sums, verdict->excess)) {
+        file_probe(search, verdict);
     }
 }
 
 /// A step of the rival, which may turn out to be the estimate or better than it.
-static void follow_rival(jcal_two_dof_window_t *self, const jcal_two_dof_rows_t *rows)
+static void follow_rival(jcal_two_dof_window_search_t *search, jcal_two_dof_verdict_t *verdict,
+                         const jcal_two_dof_rows_t *rows)
 {
-    jcal_two_dof_window_search_t *const search = &self->search;
     jcal_two_dof_window_sums_t sums;
     follow(&search->rival, rows, &sums);
     if (jcal_two_dof_is_near(&search->best.point, &search->rival.point, JCAL_TWO_DOF_SAME_COSINE)) {
         search->has_rival = false;
-    } else if (search->rival.cost < (search->best.cost - (BETTER * self->verdict.excess))) {
-        adopt(self, &search->rival);
+    } else if (search->rival.cost < (search->best.cost - (BETTER * verdict->excess))) {
+        adopt(search, verdict, &search->rival);
     } else {
         /* the second best it stays */
     }
@@ -262,50 +264,51 @@ static bool covariance_of(const jcal_two_dof_window_sums_t *sums, unsigned n, fl
     return true;
 }
 
-static void judge(jcal_two_dof_window_t *self, const jcal_two_dof_rows_t *rows, const jcal_two_dof_row_t *newest,
+/// Judges the estimate, at which the sums are `sums`.
+static void judge(const jcal_two_dof_window_search_t *search, jcal_two_dof_verdict_t *verdict,
+                  const jcal_two_dof_rows_t *rows, const jcal_two_dof_row_t *newest,
                   const jcal_two_dof_window_sums_t *sums)
 {
-    const jcal_two_dof_window_search_t *const search = &self->search;
     const bool turn = rows->cfg->constraint == JCAL_CONSTRAINT_ROTATION;
-    const float per_excess = 1.0f / self->verdict.excess;
+    const float per_excess = 1.0f / verdict->excess;
     float covariance[JCAL_SYM_SIZE(JCAL_TWO_DOF_WINDOW_UNKNOWNS)];
     const bool known =
-        covariance_of(sums, jcal_two_dof_window_unknowns(rows->cfg->constraint), self->verdict.excess, covariance);
+        covariance_of(sums, jcal_two_dof_window_unknowns(rows->cfg->constraint), verdict->excess, covariance);
     const jcal_two_dof_evidence_t evidence = {
+        .point = &search->best.point,
         .covariance = known ? covariance : NULL,
         .parts = {turn ? sums->weighted : 0.0f, turn ? 0.0f : sums->weighted},
         .moving_s = sums->moving_s,
         .age_s = age_of(rows, newest),
         .sine = sums->sine,
-        .bad_share = self->gate.bad_share,
+        .complaint = rows->complaint,
         .cost = search->best.cost * per_excess,
         .rival_cost = search->rival.cost * per_excess,
         .has_rival = search->has_rival,
         .tried = search->tried,
         .exchanges = search->exchanges,
     };
-    jcal_two_dof_conclude(&self->verdict, rows->cfg, &evidence, &self->search.agreed);
+    jcal_two_dof_conclude(verdict, rows->cfg, &evidence);
 }
 
-void jcal_two_dof_window_work(jcal_two_dof_window_t *self, const jcal_two_dof_rows_t *rows,
-                              const jcal_two_dof_row_t *newest)
+void jcal_two_dof_window_work(jcal_two_dof_window_search_t *search, jcal_two_dof_verdict_t *verdict,
+                              const jcal_two_dof_rows_t *rows, const jcal_two_dof_row_t *newest)
 {
-    jcal_two_dof_window_search_t *const search = &self->search;
     unsigned passes = SEARCH_PASSES;
     if (search->has_best) {
         jcal_two_dof_window_sums_t sums;
         follow(&search->best, rows, &sums);
-        self->verdict.sine = sums.sine;
+        verdict->sine = sums.sine;
         if (search->turn == 0u) {
-            judge(self, rows, newest, &sums);
+            judge(search, verdict, rows, newest, &sums);
         }
     }
     if (search->has_rival && (search->turn == (TURNS - 1u))) {
-        follow_rival(self, rows);
+        follow_rival(search, verdict, rows);
         passes -= 1u;
     }
     for (unsigned i = 0u; i < passes; ++i) {
-        probe(self, rows, newest);
+        probe(search, verdict, rows, newest);
     }
     search->turn = (uint8_t)((search->turn + 1u) % TURNS);
 }

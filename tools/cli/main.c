@@ -1,13 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /* The program `jointcal`: picks the subcommand. */
-#include "angles_command.h"
-#include "center_command.h"
-#include "chain_command.h"
-#include "hinge_command.h"
+#include "commands/commands.h"
+#include "output/message.h"
+
 #include "jointcal/jointcal.h"
-#include "message.h"
-#include "stream_command.h"
-#include "two_dof_command.h"
 
 #include <argp.h>
 #include <signal.h>
@@ -17,20 +13,11 @@
 typedef struct {
     const char *name;
     int (*run)(int argc, char **argv);
-    char *full_name; /* argp shows argv[0] in its messages */
 } command_t;
 
-static char angles_name[] = "jointcal angles";
-static char center_name[] = "jointcal center";
-static char chain_name[] = "jointcal chain";
-static char hinge_name[] = "jointcal hinge";
-static char stream_name[] = "jointcal stream";
-static char two_dof_name[] = "jointcal two-dof";
-
 static const command_t COMMANDS[] = {
-    {"angles", angles_command, angles_name}, {"center", center_command, center_name},
-    {"chain", chain_command, chain_name},    {"hinge", hinge_command, hinge_name},
-    {"stream", stream_command, stream_name}, {"two-dof", two_dof_command, two_dof_name}};
+    {"angles", angles_command}, {"center", center_command}, {"chain", chain_command},    {"check", check_command},
+    {"hinge", hinge_command},   {"stream", stream_command}, {"two-dof", two_dof_command}};
 
 #define COMMAND_COUNT (sizeof COMMANDS / sizeof COMMANDS[0])
 
@@ -60,31 +47,39 @@ static const command_t *find_command(const char *name)
 static error_t parse(int key, char *argument, struct argp_state *state)
 {
     choice_t *choice = state->input;
+    if (key == 'h') {
+        argp_state_help(state, stdout, ARGP_HELP_STD_HELP); /* ends the program */
+    }
     if (key == ARGP_KEY_ARG) {
         choice->command = find_command(argument);
         choice->index = state->next - 1;
         if (choice->command == NULL) {
-            argp_error(state, "no subcommand '%s'; there is: angles, center, chain, hinge, stream, two-dof", argument);
+            argp_error(state, "no subcommand '%s'; there is: angles, center, chain, check, hinge, stream, two-dof",
+                       argument);
         }
         state->next = state->argc;
         return 0;
     }
     if (key == ARGP_KEY_NO_ARGS) {
-        argp_error(state, "which subcommand? There is: angles, center, chain, hinge, stream, two-dof");
+        argp_error(state, "which subcommand? There is: angles, center, chain, check, hinge, stream, two-dof");
     }
     return ARGP_ERR_UNKNOWN;
 }
 
+static const struct argp_option OPTIONS[] = {{"h", 'h', NULL, OPTION_HIDDEN, "", 0}, {NULL, 0, NULL, 0, NULL, 0}};
+
 static const struct argp PARSER = {
+    .options = OPTIONS,
     .parser = parse,
     .args_doc =
-        "angles RECORDING.csv --joint KIND [OPTION...]\ncenter RECORDING.csv [OPTION...]\nchain RECORDING.csv [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]\n"
+        "angles RECORDING.csv --joint KIND [OPTION...]\ncenter RECORDING.csv [OPTION...]\nchain RECORDING.csv [OPTION...]\ncheck RECORDING.csv [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]\n"
         "two-dof RECORDING.csv [OPTION...]",
     .doc = "Finds out how the IMUs of a recording sit on the two sides of a joint.\v"
            "Subcommands:\n"
            "  angles   the angles of a joint, from these axes\n"
            "  center   where both sensors sit relative to the centre of a joint\n"
            "  chain    the same for hip and knee together, three sensors\n"
+           "  check    what the sensors do, and what is wrong with a recording as a whole\n"
            "  hinge    both axes of a joint with one axis, like a knee or a finger joint\n"
            "  stream   plays a recording to a hub and writes what the hub finds\n"
            "  two-dof  both axes of a joint with two axes, like elbow and forearm, and the heading offset\n"
@@ -104,6 +99,9 @@ int main(int argc, char **argv)
     if (choice.command == NULL) {
         return EXIT_INPUT;
     }
-    argv[choice.index] = choice.command->full_name;
+    /* argp shows argv[0] in its messages. */
+    char full_name[32];
+    (void)snprintf(full_name, sizeof full_name, "jointcal %s", choice.command->name);
+    argv[choice.index] = full_name;
     return choice.command->run(argc - choice.index, argv + choice.index);
 }

@@ -10,9 +10,10 @@ file(GLOB_RECURSE jointcal_checked CONFIGURE_DEPENDS lib/*.c lib/*.h include/*.h
 add_custom_command(
     OUTPUT ${PROJECT_BINARY_DIR}/sources_checked.stamp
     COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/maintain/check_sources.py ${jointcal_checked}
+    COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/tools/maintain/check_includes.py ${PROJECT_SOURCE_DIR}
     COMMAND ${CMAKE_COMMAND} -E touch ${PROJECT_BINARY_DIR}/sources_checked.stamp
-    DEPENDS ${jointcal_checked} tools/maintain/check_sources.py
-    COMMENT "Checking the library's sources for banned words, recursion and length" VERBATIM)
+    DEPENDS ${jointcal_checked} lib/layers.txt tools/maintain/check_sources.py tools/maintain/check_includes.py
+    COMMENT "Checking the library's sources: banned words, recursion, length, who includes and calls whom" VERBATIM)
 
 # Sanitizers and coverage counters add symbols and statics of their own.
 set(jointcal_check_stamps ${PROJECT_BINARY_DIR}/sources_checked.stamp)

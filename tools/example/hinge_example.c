@@ -1,25 +1,20 @@
 /* SPDX-License-Identifier: MIT */
-/* How firmware uses jointcal. The part below this comment is the README's; a test compares them. */
+/* How firmware uses jointcal. README.md shows the first function; a test compares them. */
 
 #include "jointcal/jointcal.h"
 
 #include <math.h>
 #include <stdio.h>
 
-static jcal_hinge_t hinge; /* plain struct: no heap, no hidden state */
+static jcal_hinge_t knee; /* a plain struct: no heap, no hidden state */
 
 /* Call this for every pair of readings: rad/s, m/s^2, microseconds from any origin. */
-static bool on_sample(uint64_t t_us, jcal_imu_t thigh, jcal_imu_t shank)
+static bool knee_is_ready(uint64_t t_us, jcal_imu_t thigh, jcal_imu_t shank, jcal_hinge_result_t *result)
 {
     const jcal_pair_t pair = {t_us, thigh, shank};
-    jcal_hinge_result_t result;
-    (void)jcal_hinge_update(&hinge, &pair); /* a rejected sample is counted in the result */
-    (void)jcal_hinge_get(&hinge, &result);
-    if (result.head.status == JCAL_READY) {
-        printf("axis of the shank sensor: %.3f %.3f %.3f, right to %.1f deg\n", (double)result.axis2.x,
-               (double)result.axis2.y, (double)result.axis2.z, (double)result.uncertainty2_rad * 57.3);
-    }
-    return result.head.status == JCAL_READY;
+    (void)jcal_hinge_update(&knee, &pair); /* a rejected sample is counted in the result */
+    (void)jcal_hinge_get(&knee, result);   /* axis1, axis2, and how far off they may be */
+    return result->head.status == JCAL_READY;
 }
 
 /* In place of a sensor: a segment that hangs from a tilting joint axis (its z) and turns about it. */
@@ -34,15 +29,20 @@ static jcal_imu_t segment(float tilt, float tilt_rate, float turn, float turn_ra
 int main(void)
 {
     const jcal_hinge_config_t config = jcal_hinge_config_default();
-    if (jcal_hinge_init(&hinge, &config) != JCAL_OK) {
+    if (jcal_hinge_init(&knee, &config) != JCAL_OK) {
         return 1;
     }
+    jcal_hinge_result_t result;
     bool ready = false;
     for (uint32_t k = 0; k < 3000 && !ready; k++) { /* 50 Hz, at most one minute */
         const float t = 0.02f * (float)k, tilt = 1.0f + sinf(t), tilt_rate = cosf(t);
         const jcal_imu_t thigh = segment(tilt, tilt_rate, 0.4f * sinf(2.0f * t), 0.8f * cosf(2.0f * t));
         const jcal_imu_t shank = segment(tilt, tilt_rate, 0.9f * sinf(3.0f * t), 2.7f * cosf(3.0f * t));
-        ready = on_sample(20000u * (uint64_t)k, thigh, shank);
+        ready = knee_is_ready(20000u * (uint64_t)k, thigh, shank, &result);
+    }
+    if (ready) {
+        printf("axis of the shank sensor: %.3f %.3f %.3f, right to %.1f deg\n", (double)result.axis2.x,
+               (double)result.axis2.y, (double)result.axis2.z, (double)result.uncertainty2_rad * 57.3);
     }
     return ready ? 0 : 1;
 }

@@ -9,7 +9,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 source tools/maintain/packages.sh
-need_packages clang-14 libclang-rt-14-dev
+need_packages clang-14 libclang-rt-14-dev || exit 1
 
 # tools/maintain/fuzz.sh frames [COUNT]: feeds COUNT (default 10 million) random and damaged frames to the decoder and holds what it
 # accepts against the odds of the CRC; 10 million and more write docs/measurements/frames.md.
@@ -46,7 +46,7 @@ flags=(-std=c99 -g -O1 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -Wall -Wextra
     -fsanitize=fuzzer,address,undefined,float-cast-overflow -fno-sanitize-recover=all)
 mapfile -t library < <(find lib -name '*.c' | sort)
 hub=(port/hub/frame.c port/hub/messages.c port/hub/hub.c)
-reader=(tools/cli/csv.c tools/cli/number.c tools/cli/recording.c)
+reader=(tools/cli/input/{check,check_frames,check_sensor,check_time,csv,file_kind,header_help,number,recording}.c)
 
 for target in "${targets[@]}"; do
     sources=("host_tests/fuzz/fuzz_$target.c" "${library[@]}")

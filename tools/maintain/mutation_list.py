@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Mutations of formulas in lib/ and include/ for tools/mutate.py: (file, old text, new text, what it breaks).
+"""Mutations of formulas in lib/ and include/ for mutate.py: (file, old text, new text, what it breaks).
 
 The old text occurs exactly once in its file. SURVIVORS names those that no test can
 tell from the original, with the reason.
@@ -22,7 +22,9 @@ TWO = "lib/two_dof/model.c"
 MOMENTS = "lib/two_dof/moments.c"
 PRIOR = "lib/two_dof/prior.c"
 VERDICT = "lib/two_dof/verdict.c"
+TWO_RESULT = "lib/two_dof/result.c"
 ANGLES = "lib/angles/angles.c"
+HEADING = "lib/angles/heading.c"
 ORIENTATION = "lib/sample/orientation.c"
 SENSOR = "lib/sample/sensor.c"
 CLOCK = "lib/sample/clock.c"
@@ -31,6 +33,8 @@ RING = "lib/sample/ring.h"
 KEPT = "lib/two_dof/kept.c"
 WATCH = "lib/joint/watch.h"
 SLIP = "lib/hinge/slip.c"
+SIGN = "lib/joint/sign.h"
+WINDOW = "lib/hinge/window.c"
 TWO_ENGINE = "lib/two_dof/stream.c"
 CMODEL = "lib/center/model.c"
 SUMS = "lib/center/sums.c"
@@ -110,8 +114,8 @@ MUTATIONS = [
      "(ONE_DIRECTION * (mean - half)) + (SECOND_DIRECTION", "larger eigenvalue"),
     (BOUNDS, "biases[jcal_sym_at(i, i)] += prior;", "biases[jcal_sym_at(i, i)] += 1e6f;", "biases in the bounds"),
     (BOUNDS, "#define PRETENDED_SHARE 0.5f", "#define PRETENDED_SHARE 0.0f", "pretended information"),
-    (BOUNDS, "out->sure[at] = sum + (trust * acc.matrix[at]);",
-     "out->sure[at] = sum + acc.matrix[at];", "discount of (25)"),
+    (BOUNDS, "out->sure[at] = sum + (trust * acc->matrix[at]);",
+     "out->sure[at] = sum + acc->matrix[at];", "discount of (25)"),
     (BOUNDS, "#define PRIOR_BLOCKS 6.0f", "#define PRIOR_BLOCKS 12.0f", "weight of the assumed scatter"),
     (BOUNDS, "#define PRIOR_DISTURBED 3.0f", "#define PRIOR_DISTURBED 1.0f", "disturbances outlast a block"),
     (BOUNDS, "jcal_hinge_refine_blocks_of(refine, axis), 1.0f)", "jcal_hinge_refine_blocks_of(refine, 0u), 1.0f)",
@@ -125,22 +129,29 @@ MUTATIONS = [
     (BOUNDS, "#define LINEAR_SHARE 0.2f", "#define LINEAR_SHARE 20.0f", "nearly planar motion"),
     (JUDGE, "sign.evidence = 0.5f * (acc_odds + turn_odds);",
      "sign.evidence = 0.5f * (acc_odds - turn_odds);", "odds of the pairing"),
+    (JUDGE, "? JCAL_HINGE_HYSTERESIS : 1.0f;", "? 1.0f : 1.0f;", "leaving ready takes more than entering it"),
+    (WINDOW, "(self->was_ready ? JCAL_HINGE_HYSTERESIS : 1.0f)", "1.0f", "leaving ready takes more, window engine"),
+    (WINDOW, "result->head.reason = JCAL_REASON_NO_DATA;", "result->head.reason = JCAL_REASON_NONE;",
+     "no axes without a reason"),
+    (ENGINE, "        keep_signs(self);", "        (void)keep_signs;", "a sign that stays"),
+    (SIGN, "if ((along > 0.0f) || (along < 0.0f)) {", "if (along > 0.0f) {", "away from the named direction"),
+    (POINT, "jcal_sign_held(point->axis2.j, kept[1])", "jcal_sign_main(point->axis2.j)", "what a hint means beyond a tie"),
     (JUDGE, "#define EXCITATION_MIN 0.03f", "#define EXCITATION_MIN 0.0f", "a joint that does not move"),
-    (JUDGE, "if (self->search.rounds == 0u) {", "if (self->search.rounds == 255u) {", "all starts tried"),
-    (JUDGE, "return !(much_worse && (other > (RIVAL_RATIO_MIN * cost)));",
-     "return (much_worse && (other > (RIVAL_RATIO_MIN * cost)));", "is a rival worse"),
+    (JUDGE, "if (self->search->rounds == 0u) {", "if (self->search->rounds == 255u) {", "all starts tried"),
+    (JUDGE, "return !(much_worse && ((slack * other) > (RIVAL_RATIO_MIN * cost)));",
+     "return (much_worse && ((slack * other) > (RIVAL_RATIO_MIN * cost)));", "is a rival worse"),
     (JUDGE, "(bounds->bound1_rad > bounds->bound2_rad) ? JCAL_WEAK_AXIS1",
      "(bounds->bound1_rad < bounds->bound2_rad) ? JCAL_WEAK_AXIS1", "the weaker axis"),
-    (JUDGE, "return error < ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S);",
-     "return error > ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S);", "does it fit"),
+    (JUDGE, "return error < (slack * ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S));",
+     "return error > (slack * ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S));", "does it fit"),
     (JUDGE, "(sign.evidence < SIGN_EVIDENCE_TURN)",
      "(sign.evidence > SIGN_EVIDENCE_TURN)", "turning the pairing round"),
     (SEARCH, "const float packed[6] = {sums[0], sums[3], sums[1],",
      "const float packed[6] = {sums[0], sums[1], sums[3],", "layout of the rates' moments"),
-    (SEARCH, "if (jcal_hinge_cost_acc(&self->moments, &self->cfg, &turned) < here) {",
-     "if (jcal_hinge_cost_acc(&self->moments, &self->cfg, &turned) > here) {", "pairing of a start"),
-    (SEARCH, "const bool better = cost < cost_of(self, &self->point);",
-     "const bool better = cost > cost_of(self, &self->point);", "which minimum is better"),
+    (SEARCH, "if (jcal_hinge_cost_acc(moments, cfg, &turned) < here) {",
+     "if (jcal_hinge_cost_acc(moments, cfg, &turned) > here) {", "pairing of a start"),
+    (SEARCH, "const bool better = cost < jcal_hinge_cost(&coarse->moments, cfg, &coarse->point);",
+     "const bool better = cost > jcal_hinge_cost(&coarse->moments, cfg, &coarse->point);", "which minimum is better"),
     (POINT, "jcal_vec3_scale(point->axis2.j, -1.0f)", "jcal_vec3_scale(point->axis2.j, 1.0f)", "obeying the hint"),
     (POINT, "axis_move(&point->axis2, d[2], d[3]);", "axis_move(&point->axis2, d[2], d[1]);", "index of a step"),
     (POINT, "jcal_vec3_dot(a->axis2.j, b->axis2.j)) > 0.0f;",
@@ -148,8 +159,8 @@ MUTATIONS = [
     (ENGINE, "(violation * violation);", "violation;", "weight of (25)"),
     (ENGINE, "const float violation = self->cfg.lever_arm_m * self->rate_product;",
      "const float violation = 0.0f * self->rate_product;", "lever arm"),
-    (ENGINE, "jcal_sym_scale(self->moments.acc, 7u, 0.5f);",
-     "jcal_sym_scale(self->moments.acc, 7u, 1.0f);", "halving"),
+    (ENGINE, "jcal_sym_scale(self->coarse.moments.acc, 7u, 0.5f);",
+     "jcal_sym_scale(self->coarse.moments.acc, 7u, 1.0f);", "halving"),
     (ENGINE, "self->rest_s = ((sample->w1_2 + sample->w2_2) < REST_RATE2) ? (self->rest_s + sample->dt_s) : 0.0f;",
      "self->rest_s = 0.0f;", "rest"),
     (ENGINE, "- errors, 0.0f);", "+ errors, 0.0f);", "errors in the difference of rates"),
@@ -213,13 +224,24 @@ MUTATIONS = [
     (VERDICT, "return evidence->has_rival &&", "return !evidence->has_rival &&", "other minimum"),
     (VERDICT, "const bool open = has_close_rival(evidence);", "const bool open = false;", "bounds beside a rival"),
     (VERDICT, "(misfit > MISFIT_MAX)", "(misfit < 0.0f)", "data that do not fit"),
-    (VERDICT, "sign1 * sign2 * jcal_atan2(sine,", "sign1 * jcal_atan2(sine,", "sign of the carrying angle"),
+    (TWO_RESULT, "cfg->axis1_toward, verdict->sign1);", "cfg->axis1_toward, 0);", "sign of axis 1 once ready"),
+    (TWO_RESULT, "cfg->axis2_toward, verdict->sign2);", "cfg->axis2_toward, 0);", "sign of axis 2 once ready"),
+    (TWO_RESULT, "jcal_orientation_gate_complaint(gate), first", "JCAL_REASON_NONE, first", "a source that fails"),
+    (VERDICT, "jcal_sign_keep(&verdict->sign2, evidence->point->j2,", "jcal_sign_keep(&verdict->sign2, evidence->point->j1,",
+     "which axis keeps its sign"),
+    (TWO_RESULT, "sign1 * sign2 * jcal_atan2(sine,", "sign1 * jcal_atan2(sine,", "sign of the carrying angle"),
     (ANGLES, "2.0f * ((q.w * q.y) - (q.x * q.z))", "2.0f * ((q.w * q.y) + (q.x * q.z))", "pronation (24)"),
     (ANGLES, "2.0f * ((q.w * q.x) + (q.y * q.z))", "2.0f * ((q.w * q.x) - (q.y * q.z))", "carrying angle (23)"),
-    (ANGLES, "about_z(is->flexion_rad - shall->flexion_rad)", "about_z(shall->flexion_rad - is->flexion_rad)",
+    (ANGLES, "flexion_rad = is->flexion_rad - shall->flexion_rad;", "flexion_rad = shall->flexion_rad - is->flexion_rad;",
      "reference pose (25)"),
     (ORIENTATION, "(self->still1_s > config->frozen_s) || (self->still2_s > config->frozen_s)",
      "(self->still1_s > config->frozen_s) || (self->still1_s > config->frozen_s)", "frozen sensor 2"),
+    (ORIENTATION, "const float bad = (outcome == JCAL_REJECT_NONE) ? 0.0f : 1.0f;",
+     "const float bad = ((outcome == JCAL_REJECT_NONE) || (outcome == JCAL_REJECT_GAP)) ? 0.0f : 1.0f;", "nothing but holes"),
+    (HEADING, "!jcal_is_unit(pair->q1) ||", "", "a long quaternion in the sums"),
+    (HEADING, "jcal_quat_rotate(jcal_quat_normalise(pair->q1), self->axis1)", "jcal_quat_rotate(pair->q1, self->axis1)",
+     "length of a quaternion"),
+    (ANGLES, "!jcal_is_unit(q_s2_e2) ||", "", "an angle of zeros"),
     (CLOCK, "(t_us == from_us) || !(since_s <= gap_s)", "!(since_s <= gap_s)", "time that stands still"),
     (RATE, "const float sign = (turn.w < 0.0f) ? -1.0f : 1.0f;", "const float sign = 1.0f;", "sign of a quaternion"),
     (RATE, "jcal_quat_mul(to, jcal_quat_conj(from))", "jcal_quat_mul(jcal_quat_conj(from), to)", "frame of the rate"),
@@ -321,7 +343,7 @@ MUTATIONS = [
     (SUMS, "#define REACH_M 0.3f", "#define REACH_M 0.6f", "prior of the positions"),
     (SUMS, "recent[i] = recent[i + 1u];", "recent[i] = recent[0];", "residuals of the last samples"),
     (SUMS, "#define NO_BIAS 1e-4f", "#define NO_BIAS 1e-1f", "biases that are not estimated"),
-    (INPUT, "|| !is_unit(attitudes->q2)", "|| !is_unit(attitudes->q1)", "length of quaternion 2"),
+    (INPUT, "|| !jcal_is_unit(attitudes->q2)", "|| !jcal_is_unit(attitudes->q1)", "length of quaternion 2"),
     (INPUT, "const jcal_attitudes_t attitudes = self->attitudes[slot];",
      "const jcal_attitudes_t attitudes = self->attitudes[(slot + 1u) % JCAL_INBOX_CAPACITY];",
      "orientation of another pair in the inbox"),
@@ -350,7 +372,7 @@ MUTATIONS = [
     (CJUDGE, "#define ALONG_COSINE2 0.9f", "#define ALONG_COSINE2 1.1f", "the doubtful direction is the known axis"),
     (CJUDGE, "#define EXCESS_MIN 0.3f", "#define EXCESS_MIN 0.0f", "residuals smaller than usual"),
     (CJUDGE, "#define AGREED_MIN 3u", "#define AGREED_MIN 1u", "three judgements agree"),
-    (CJUDGE, "#define HYSTERESIS 1.2f", "#define HYSTERESIS 12.0f", "ready is lost"),
+    ("lib/joint/hysteresis.h", "#define JCAL_HYSTERESIS 1.2f", "#define JCAL_HYSTERESIS 12.0f", "ready is lost"),
     (CJUDGE, "inverse->of.next.matrix[jcal_sym_at(i, i)] += prior[i];", "inverse->of.next.matrix[jcal_sym_at(i, i)] -= prior[i];",
      "prior in the matrix"),
     (CJUDGE, "(few * from_scatter) + (own * from_prior);", "from_scatter + (own * from_prior);", "few blocks in the covariance"),
@@ -392,14 +414,23 @@ MUTATIONS = [
     (CJUDGE, "#define ALONG_COSINE2 0.9f", "#define ALONG_COSINE2 0.0f", "a doubtful direction apart from the known axis"),
     (CJUDGE, "ROW_ERROR * sqrtf(jcal_max(power, 1.0f));", "ROW_ERROR * jcal_max(power, 1.0f);", "root of wrong information"),
     (CJUDGE, "#define POWER_STEPS 4u", "#define POWER_STEPS 0u", "power iteration"),
-    (CRESULT, "0.5f * (along1 + along2);", "0.5f * (along1 - along2);", "next to both sensors"),
-    (CRESULT, "jcal_vec3_sub(place->r2, jcal_vec3_scale(cfg->hinge_axis2, shift));",
-     "jcal_vec3_sub(place->r2, jcal_vec3_scale(cfg->hinge_axis1, shift));", "axis in sensor frame 2"),
+    ("lib/center/place.h", "0.5f * (along1 + along2);", "0.5f * (along1 - along2);", "next to both sensors"),
+    ("lib/center/place.h", "jcal_vec3_sub(place->r2, jcal_vec3_scale(cfg->hinge_axis2, shift))",
+     "jcal_vec3_sub(place->r2, jcal_vec3_scale(cfg->hinge_axis1, shift))", "axis in sensor frame 2"),
+    (CRESULT, "out->has_center = has_point && jcal_center_place_in_reach(&told);", "out->has_center = has_point;", "a place out of reach"),
+    (CRESULT, "jcal_gate_complaint(&input->gate), weakest", "JCAL_REASON_NONE, weakest", "sensors that fail"),
+    (CJUDGE, "(self->sums.blocks >= BLOCKS_MIN) && jcal_center_place_in_reach(&told);", "(self->sums.blocks >= BLOCKS_MIN);",
+     "bounds of a place out of reach"),
+    (INPUT, "jcal_gate_refuse(&self->gate, cause);", "", "orientations that fail"),
+    (INPUT, "*changed_us = t_us;", "", "when an orientation last changed"),
+    (CHAIN, "jcal_center_input_full(&self->hip.input) ||", "", "a push that leaves a trace in the hip"),
+    (CHAIN, "(self->was_ready ? JCAL_HYSTERESIS : 1.0f)", "1.0f", "ready is lost at once"),
+    (CHAIN, "self->judged[1] = knee->count;", "", "status after a judgement"),
     (CRESULT, "out->acc_bias2_m_s2 = point->b2;", "out->acc_bias2_m_s2 = point->b1;", "bias of the other sensor in the result"),
     (CRESULT, "jcal_atan2(point->heading.im, point->heading.re)", "jcal_atan2(-point->heading.im, point->heading.re)",
      "sign of the heading offset"),
     (CRESULT, "max_bound_m / jcal_max(bound_m, FLT_MIN)", "bound_m / jcal_max(max_bound_m, FLT_MIN)", "progress"),
-    (CRESULT, "progress(verdict->bound2_m,", "progress(verdict->bound1_m + 0.0f,", "progress of sensor 2"),
+    (CRESULT, "progress(out->uncertainty2_m,", "progress(out->uncertainty1_m,", "progress of sensor 2"),
     (CENTER, "(jcal_center_reading_s(&self->cfg) * noise * noise)", "(jcal_center_reading_s(&self->cfg) * noise)",
      "weight in the moments"),
     (CENTER, "jcal_min(cfg->memory_s, HEADING_MEMORY_S)", "cfg->memory_s", "memory with headings that drift"),
@@ -458,7 +489,7 @@ MUTATIONS = [
      "floor of the bound of the length"),
     (CHAIN, "const float shift = 0.5f * (jcal_vec3_dot(*thigh", "const float shift = 1.0f * (jcal_vec3_dot(*thigh",
      "knee next to both sensors"),
-    (CHAIN, "out->status = fits ? JCAL_READY : JCAL_COLLECTING;", "out->status = JCAL_READY;", "a tie that contradicts"),
+    (CHAIN, "out->head.status = fits ? JCAL_READY : JCAL_COLLECTING;", "out->head.status = JCAL_READY;", "a tie that contradicts"),
     (CHAIN, "(worst[0] >= worst[1])", "(worst[0] < worst[1])", "the weaker joint"),
     (CHAIN, "(joint->status == JCAL_COLLECTING) && (joint->reason == JCAL_REASON_UNCERTAIN)", "(joint->status == JCAL_COLLECTING)",
      "a joint that lacks nothing but smaller bounds"),
@@ -540,7 +571,7 @@ MUTATIONS = [
     (CJUDGE, "sqrtf(jcal_max(lasting, LASTING_MIN))", "sqrtf(lasting)", "what lasts as little as noise"),
     (CENTER, "(self->work.sums.blocks >= BLOCKS_MIN)", "(self->work.sums.blocks >= 1.0f)", "steps of too little data"),
     (CENTER, "if (jcal_center_sums_close(&self->work.sums) ||", "if (", "blocks that are never closed"),
-    (TIE, "!self->hip.work.as.inverse.is_factored ||", "", "ties without a factor of the hip's"),
+    (TIE, "!hip->work.as.inverse.is_factored ||", "", "ties without a factor of the hip's"),
     (CJUDGE, "return inverse->is_factored;", "return true;", "a matrix without a factor"),
     (SENSOR, "return exceeds(&now[0], GYR_CLIP_MIN_RAD_S) &&", "return true &&", "a coarse reading at rest"),
 ]

@@ -315,6 +315,48 @@ static void wrapping_keeps_what_is_in_range_and_refuses_what_is_too_large(void)
     TEST_ASSERT_TRUE(isnan(jcal_angle_wrap(NAN)));
 }
 
+static void what_is_no_orientation_has_no_angle(void)
+{
+    const jcal_quat_t one = {0.6f, 0.0f, 0.8f, 0.0f};
+    const jcal_quat_t bad[4] = {
+        {0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 2.0f, 0.0f}, {0.6f, NAN, 0.8f, 0.0f}, {0.9f, 0.0f, 0.0f, 0.0f}};
+    jcal_joint_frames_t frames;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK,
+                          jcal_frames_hinge((jcal_vec3_t){0.0f, 0.0f, 1.0f}, (jcal_vec3_t){0.0f, 0.0f, 1.0f}, &frames));
+    for (int i = 0; i < 4; ++i) {
+        TEST_ASSERT_FLOAT_IS_NAN(jcal_joint_orientation(&frames, bad[i], one, 0.0f).w);
+        TEST_ASSERT_FLOAT_IS_NAN(jcal_joint_orientation(&frames, one, bad[i], 0.0f).x);
+    }
+    const float headings[3] = {NAN, INFINITY, -1001.0f};
+    for (int i = 0; i < 3; ++i) {
+        const jcal_quat_t q = jcal_joint_orientation(&frames, one, one, headings[i]);
+        TEST_ASSERT_FLOAT_IS_NAN(jcal_hinge_angles(q).flexion_rad);
+        TEST_ASSERT_FLOAT_IS_NAN(jcal_two_dof_angles(q).flexion_rad);
+        TEST_ASSERT_FLOAT_IS_NAN(jcal_two_dof_angles(q).pronation_rad);
+        TEST_ASSERT_FLOAT_IS_NAN(jcal_two_dof_angles(q).carrying_rad);
+    }
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f, jcal_joint_orientation(&frames, one, one, 0.0f).w);
+}
+
+static void null_does_nothing(void)
+{
+    const jcal_quat_t one = {1.0f, 0.0f, 0.0f, 0.0f};
+    const jcal_joint_angles_t zero = {0.0f, 0.0f, 0.0f}, some = {0.3f, 0.2f, 0.1f};
+    const jcal_joint_angles_t lost = {NAN, 0.0f, 0.0f}, far = {0.0f, 2000.0f, 0.0f};
+    jcal_joint_frames_t frames = {one, one};
+    jcal_frames_zero(NULL, &some, &zero);
+    jcal_frames_zero(&frames, NULL, &zero);
+    jcal_frames_zero(&frames, &some, NULL);
+    jcal_frames_zero(&frames, &lost, &zero);
+    jcal_frames_zero(&frames, &zero, &far);
+    TEST_ASSERT_EQUAL_MEMORY(&one, &frames.q_b1_s1, sizeof one);
+    TEST_ASSERT_EQUAL_MEMORY(&one, &frames.q_b2_s2, sizeof one);
+    TEST_ASSERT_FLOAT_IS_NAN(jcal_joint_orientation(NULL, one, one, 0.0f).w);
+    jcal_angle_range_reset(NULL);
+    jcal_angle_range_push(NULL, 0.1f);
+    TEST_ASSERT_EQUAL_INT(0, jcal_axis_sign_by_range(NULL));
+}
+
 static void axes_without_direction_are_refused_and_nothing_is_written(void)
 {
     const jcal_vec3_t good = {0.0f, 2.0f, 0.0f};
@@ -352,6 +394,8 @@ int main(void)
     RUN_TEST(the_mean_of_the_range_gives_the_sign_of_the_axis);
     RUN_TEST(the_end_of_the_range_can_be_made_zero);
     RUN_TEST(wrapping_keeps_what_is_in_range_and_refuses_what_is_too_large);
+    RUN_TEST(what_is_no_orientation_has_no_angle);
+    RUN_TEST(null_does_nothing);
     RUN_TEST(axes_without_direction_are_refused_and_nothing_is_written);
     return UNITY_END();
 }

@@ -2,6 +2,7 @@
 /// @file
 /// Tests of jointcal/joint_heading.h on motions whose heading offset is known.
 #include "jointcal/joint_heading.h"
+#include "jointcal/quat.h"
 #include "jointcal/vec3.h"
 #include "unit/angles/pose.h"
 
@@ -242,6 +243,57 @@ static void better_axes_are_taken_over(void)
     }
 }
 
+static void what_is_no_orientation_changes_nothing(void)
+{
+    static const float lengths[] = {0.0f, 1e-3f, 0.94f, 1.06f, 7.0f, 1e10f, 1e12f, 1e30f};
+    const pose_joint_t *const joints[2] = {&HINGE, &ELBOW};
+    for (int j = 0; j < 2; ++j) {
+        for (size_t i = 0; i < sizeof lengths / sizeof lengths[0]; ++i) {
+            for (int sensor = 0; sensor < 2; ++sensor) {
+                jcal_joint_heading_t follower;
+                start(&follower, joints[j], 5.0f);
+                for (int k = 0; k < 200; ++k) {
+                    push(&follower, joints[j], 0.05 * k, 0.5);
+                }
+                const jcal_joint_heading_t before = follower;
+                const pose_t pose = moving(11.0, 2.0);
+                jcal_orientation_pair_t pair = pose_sensors(joints[j], &pose, 12000000u);
+                jcal_quat_t *const q = (sensor == 0) ? &pair.q1 : &pair.q2;
+                *q = jcal_quat(q->w * lengths[i], q->x * lengths[i], q->y * lengths[i], q->z * lengths[i]);
+                TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_joint_heading_push(&follower, &pair));
+                TEST_ASSERT_EQUAL_MEMORY(&before, &follower, sizeof before);
+            }
+        }
+    }
+}
+
+static void a_length_that_is_off_by_rounding_does_not_matter(void)
+{
+    const pose_joint_t *const joints[2] = {&HINGE, &ELBOW};
+    for (int j = 0; j < 2; ++j) {
+        jcal_joint_heading_t follower;
+        start(&follower, joints[j], 5.0f);
+        for (int k = 0; k < 200; ++k) {
+            const pose_t pose = moving(0.05 * k, 0.5);
+            jcal_orientation_pair_t pair = pose_sensors(joints[j], &pose, (uint64_t)(50000 * (k + 1)));
+            const float s = (k % 2 == 0) ? 1.04f : 0.96f;
+            pair.q1 = jcal_quat(pair.q1.w * s, pair.q1.x * s, pair.q1.y * s, pair.q1.z * s);
+            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_joint_heading_push(&follower, &pair));
+        }
+        TEST_ASSERT_TRUE(get(&follower).known);
+        TEST_ASSERT_TRUE(pose_apart((double)get(&follower).heading_rad, 0.5) < 1e-3);
+    }
+}
+
+static void zeros_alone_tell_nothing(void)
+{
+    jcal_joint_heading_t follower;
+    const jcal_orientation_pair_t zeros = {1000000u, {0.0f, 0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f, 0.0f}};
+    start(&follower, &HINGE, 0.0f);
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_joint_heading_push(&follower, &zeros));
+    TEST_ASSERT_FALSE(get(&follower).known);
+}
+
 static void arguments_are_checked(void)
 {
     jcal_joint_heading_t follower;
@@ -295,6 +347,9 @@ int main(void)
     RUN_TEST(a_vertical_axis_of_two_tells_nothing);
     RUN_TEST(one_pair_after_a_gap_does_not_outweigh_what_came_before);
     RUN_TEST(better_axes_are_taken_over);
+    RUN_TEST(what_is_no_orientation_changes_nothing);
+    RUN_TEST(a_length_that_is_off_by_rounding_does_not_matter);
+    RUN_TEST(zeros_alone_tell_nothing);
     RUN_TEST(arguments_are_checked);
     return UNITY_END();
 }

@@ -6,6 +6,7 @@
 #define HINGE_BOUNDS_DOUBLE_H
 
 #include "hinge/refine.h"
+#include "jointcal/hinge.h"
 #include "unit/hinge/double.h"
 
 #include <string.h>
@@ -128,7 +129,7 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
     }
     /* All of the information, and what is believed of it. */
     jcal_hinge_lin_t acc;
-    jcal_hinge_linearise_acc(&self->moments, &self->cfg, &r->point, &acc);
+    jcal_hinge_linearise_acc(&self->coarse.moments, &self->cfg, &r->point, &acc);
     const double acc_cost = (double)acc.cost_acc;
     const double trust = 1.0 / (1.0 + (0.1 * acc_cost));
     double all[4][4];

@@ -81,8 +81,8 @@ static inline void assert_same_result(const jcal_hinge_t *a, const jcal_hinge_t 
 static inline void assert_same_state(const jcal_hinge_t *a, const jcal_hinge_t *b)
 {
     assert_same_result(a, b);
-    TEST_ASSERT_EQUAL_MEMORY(&a->moments, &b->moments, sizeof a->moments);
-    TEST_ASSERT_EQUAL_MEMORY(&a->point, &b->point, sizeof a->point);
+    TEST_ASSERT_EQUAL_MEMORY(&a->coarse.moments, &b->coarse.moments, sizeof a->coarse.moments);
+    TEST_ASSERT_EQUAL_MEMORY(&a->coarse.point, &b->coarse.point, sizeof a->coarse.point);
     TEST_ASSERT_EQUAL_MEMORY(&a->refine, &b->refine, offsetof(jcal_hinge_refine_t, has_last)); /* then padding */
     TEST_ASSERT_EQUAL_INT(a->refine.has_last, b->refine.has_last);
     TEST_ASSERT_EQUAL_MEMORY(&a->search.probe, &b->search.probe, sizeof a->search.probe);

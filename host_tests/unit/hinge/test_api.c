@@ -133,7 +133,7 @@ static void nan_and_infinity_are_rejected_and_counted_wherever_they_stand(void)
     TEST_ASSERT_EQUAL_UINT32(100 + count, r.head.samples);
     TEST_ASSERT_EQUAL_UINT32(count, r.head.rejected);
     TEST_ASSERT_EQUAL_UINT32(count, r.head.rejected_by[JCAL_REJECT_NOT_FINITE]);
-    TEST_ASSERT_EQUAL_MEMORY(&before.moments, &engine.moments, sizeof engine.moments);
+    TEST_ASSERT_EQUAL_MEMORY(&before.coarse.moments, &engine.coarse.moments, sizeof engine.coarse.moments);
 }
 
 static void a_full_inbox_is_an_error_and_loses_nothing(void)

@@ -57,8 +57,8 @@ static void add_motion(const motion_t *motion, uint32_t begin, uint32_t end, flo
         dset(s.a1, d.a[0]);
         dset(s.a2, d.a[1]);
         d.acc_weight = (double)acc_weight;
-        add_to_moments(&d, &engine.moments);
-        (void)jcal_hinge_refine_add(&engine, &s);
+        add_to_moments(&d, &engine.coarse.moments);
+        (void)jcal_hinge_refine_add(&engine.refine, &engine.cfg, &engine.coarse, &s);
     }
 }
 
@@ -66,11 +66,12 @@ static bool bounds_of(const motion_t *motion, uint32_t begin, uint32_t end, floa
 {
     const jcal_hinge_config_t cfg = engine.cfg;
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_init(&engine, &cfg));
-    engine.has_point = true;
-    jcal_hinge_point_set(&engine.point, motion_axis(motion, swapped ? 1 : 0), motion_axis(motion, swapped ? 0 : 1));
-    jcal_hinge_refine_restart(&engine.refine, &engine.point);
+    engine.coarse.has_point = true;
+    jcal_hinge_point_set(&engine.coarse.point, motion_axis(motion, swapped ? 1 : 0),
+                         motion_axis(motion, swapped ? 0 : 1));
+    jcal_hinge_refine_restart(&engine.refine, &engine.coarse.point);
     add_motion(motion, begin, end, acc_weight);
-    return jcal_hinge_bounds(&engine, &bounds);
+    return jcal_hinge_bounds(&engine.refine, &engine.coarse.moments, &engine.cfg, &bounds);
 }
 
 static void twice_the_data_with_noise_of_its_own_shrinks_the_bounds_by_the_root_of_two(void)
@@ -139,7 +140,7 @@ static void assert_no_better_with_nan(float *sums, size_t count, const jcal_hing
     for (size_t k = 0; k < count; ++k) {
         const float kept = sums[k];
         sums[k] = NAN;
-        if (jcal_hinge_bounds(&engine, &bounds)) {
+        if (jcal_hinge_bounds(&engine.refine, &engine.coarse.moments, &engine.cfg, &bounds)) {
             TEST_ASSERT_TRUE((bounds.bound1_rad >= whole->bound1_rad) && (bounds.bound2_rad >= whole->bound2_rad));
             TEST_ASSERT_TRUE(bounds.bound1_rad <= JCAL_BOUND_UNKNOWN_RAD);
             TEST_ASSERT_TRUE(bounds.bound2_rad <= JCAL_BOUND_UNKNOWN_RAD);
@@ -155,14 +156,14 @@ static void sums_that_hold_nan_give_no_bound(void)
     const jcal_hinge_bounds_t whole = bounds;
     assert_no_better_with_nan(engine.refine.matrix, JCAL_SYM_SIZE(8u), &whole);
     assert_no_better_with_nan(engine.refine.scatter, JCAL_SYM_SIZE(4u), &whole);
-    assert_no_better_with_nan(engine.moments.acc, JCAL_SYM_SIZE(7u), &whole);
+    assert_no_better_with_nan(engine.coarse.moments.acc, JCAL_SYM_SIZE(7u), &whole);
     assert_no_better_with_nan(engine.refine.along, 2, &whole);
     assert_no_better_with_nan(engine.refine.lever, 2, &whole);
     assert_no_better_with_nan(&engine.refine.across, 1, &whole);
     assert_no_better_with_nan(&engine.refine.cost, 1, &whole);
     assert_no_better_with_nan(&engine.refine.blocks, 1, &whole);
     engine.refine.matrix[0] = NAN;
-    TEST_ASSERT_FALSE(jcal_hinge_bounds(&engine, &bounds));
+    TEST_ASSERT_FALSE(jcal_hinge_bounds(&engine.refine, &engine.coarse.moments, &engine.cfg, &bounds));
 }
 
 static void an_axis_about_which_nothing_turned_has_no_bound(void)
@@ -176,13 +177,13 @@ static void an_axis_about_which_nothing_turned_has_no_bound(void)
         const float along = engine.refine.along[axis];
         engine.refine.lever[axis] *= sqrtf(0.031f / (unit * along)); /* the mismatch's share stays */
         engine.refine.along[axis] = 0.031f / unit;
-        TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine, &bounds));
+        TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine.refine, &engine.coarse.moments, &engine.cfg, &bounds));
         /* Less along the axis is less planar, which narrows a bound by up to 1 + 10 / blocks / 100: 1 % with ten blocks. */
         TEST_ASSERT_FLOAT_WITHIN(1e-2f * whole.bound1_rad, whole.bound1_rad, bounds.bound1_rad);
         TEST_ASSERT_FLOAT_WITHIN(1e-2f * whole.bound2_rad, whole.bound2_rad, bounds.bound2_rad);
         engine.refine.lever[axis] *= sqrtf(0.029f / 0.031f);
         engine.refine.along[axis] = 0.029f / unit; /* limit: 0.03 rad^2/s */
-        TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine, &bounds));
+        TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine.refine, &engine.coarse.moments, &engine.cfg, &bounds));
         TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, (axis == 0) ? bounds.bound1_rad : bounds.bound2_rad);
         TEST_ASSERT_TRUE(((axis == 0) ? bounds.bound2_rad : bounds.bound1_rad) < 0.1f);
         engine.refine.lever[axis] *= sqrtf(along * unit / 0.029f);
@@ -258,8 +259,8 @@ static void bounds_of_planar_motion_equal_their_formula_in_double(void)
 static void information_below_one_reading_at_one_radian_is_none(void)
 {
     jcal_hinge_refine_t *const refine = &engine.refine;
-    jcal_hinge_point_set(&engine.point, jcal_vec3(1.0f, 0.0f, 0.0f), jcal_vec3(0.0f, 1.0f, 0.0f));
-    jcal_hinge_refine_restart(refine, &engine.point);
+    jcal_hinge_point_set(&engine.coarse.point, jcal_vec3(1.0f, 0.0f, 0.0f), jcal_vec3(0.0f, 1.0f, 0.0f));
+    jcal_hinge_refine_restart(refine, &engine.coarse.point);
     refine->blocks = 100.0f;
     refine->units = 100.0f;
     refine->information = 100.0f;
@@ -270,11 +271,11 @@ static void information_below_one_reading_at_one_radian_is_none(void)
     for (size_t i = 0; i < 4; ++i) {
         refine->matrix[jcal_sym_at(i, i)] = 1.1f;
     }
-    TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine, &bounds));
+    TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine.refine, &engine.coarse.moments, &engine.cfg, &bounds));
     assert_bounds_in_double(1e-4f);
     TEST_ASSERT_TRUE(bounds.bound1_rad < 1.5f);
     refine->matrix[jcal_sym_at(0, 0)] = 0.9f;
-    TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine, &bounds));
+    TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine.refine, &engine.coarse.moments, &engine.cfg, &bounds));
     TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, bounds.bound1_rad);
     TEST_ASSERT_TRUE(bounds.bound2_rad < 1.5f);
 }

@@ -65,7 +65,7 @@ static void the_engine_sums_up_the_cost_of_the_reference(void)
     for (int p = 0; p < GOLDEN_POINTS; ++p) {
         const jcal_hinge_point_t at = point(p);
         const double cost = golden_costs[p][0];
-        TEST_ASSERT_TRUE(fabs((double)jcal_hinge_cost_gyr(&engine.moments, &at) - cost) < COST_TOL * cost);
+        TEST_ASSERT_TRUE(fabs((double)jcal_hinge_cost_gyr(&engine.coarse.moments, &at) - cost) < COST_TOL * cost);
     }
 }
 

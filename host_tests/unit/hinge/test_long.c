@@ -43,10 +43,10 @@ static void assert_all_finite(const float *sums, size_t count)
 
 static void assert_bounded(const jcal_hinge_t *self)
 {
-    TEST_ASSERT_TRUE(self->motion < MOTION_LIMIT);
-    TEST_ASSERT_TRUE(self->moments.acc[jcal_sym_at(6, 6)] < ACC_LIMIT);
-    assert_all_finite(self->moments.gyr, sizeof self->moments.gyr / sizeof(float));
-    assert_all_finite(self->moments.acc, sizeof self->moments.acc / sizeof(float));
+    TEST_ASSERT_TRUE(self->amount.motion < MOTION_LIMIT);
+    TEST_ASSERT_TRUE(self->coarse.moments.acc[jcal_sym_at(6, 6)] < ACC_LIMIT);
+    assert_all_finite(self->coarse.moments.gyr, sizeof self->coarse.moments.gyr / sizeof(float));
+    assert_all_finite(self->coarse.moments.acc, sizeof self->coarse.moments.acc / sizeof(float));
     assert_all_finite(self->refine.matrix, sizeof self->refine.matrix / sizeof(float));
     assert_all_finite(self->refine.scatter, sizeof self->refine.scatter / sizeof(float));
     assert_all_finite(self->refine.bias, 4u);
@@ -66,7 +66,7 @@ static void hours_of_motion_keep_the_sums_bounded_and_the_axes_right(void)
         squares += 0.04 * (double)(jcal_vec3_dot(pair.imu1.gyr_rad_s, pair.imu1.gyr_rad_s) +
                                    jcal_vec3_dot(pair.imu2.gyr_rad_s, pair.imu2.gyr_rad_s));
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_update(&engine, &pair));
-        const float now = engine.motion;
+        const float now = engine.amount.motion;
         halvings += (now < 0.75f * before) ? 1u : 0u;
         before = now;
         if (k % 1000u == 999u) {
@@ -97,7 +97,7 @@ static void accelerometer_sums_are_bounded_too(void)
     float before = 0.0f;
     for (uint32_t k = 0; k < samples; ++k) {
         run(&engine, &motion, k, k + 1);
-        const float now = engine.moments.acc[jcal_sym_at(6, 6)];
+        const float now = engine.coarse.moments.acc[jcal_sym_at(6, 6)];
         halvings += (now < 0.75f * before) ? 1u : 0u;
         before = now;
         TEST_ASSERT_TRUE(now < ACC_LIMIT);

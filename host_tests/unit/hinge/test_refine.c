@@ -3,6 +3,7 @@
 /// Tests of lib/hinge/refine.h: every sum of a block against double precision, what moves and what is given up
 /// with the axes, and that the axes get where they should.
 #include "hinge/refine.h"
+#include "jointcal/hinge.h"
 #include "unit/hinge/motion.h"
 #include "unit/hinge/refine_double.h"
 
@@ -69,24 +70,24 @@ static jcal_vec3_t beside(jcal_vec3_t j, jcal_vec3_t towards, float degrees)
 /* Both axes this far beside the truth, in directions of no meaning; the minimum of the moments is there too. */
 static void start_beside(const motion_t *motion, float degrees1, float degrees2)
 {
-    engine.has_point = true;
-    jcal_hinge_point_set(&engine.point, beside(motion_axis(motion, 0), jcal_vec3(0.6f, -0.48f, 0.64f), degrees1),
+    engine.coarse.has_point = true;
+    jcal_hinge_point_set(&engine.coarse.point, beside(motion_axis(motion, 0), jcal_vec3(0.6f, -0.48f, 0.64f), degrees1),
                          beside(motion_axis(motion, 1), jcal_vec3(-0.8f, 0.36f, 0.48f), degrees2));
-    jcal_hinge_refine_restart(&engine.refine, &engine.point);
+    jcal_hinge_refine_restart(&engine.refine, &engine.coarse.point);
 }
 
 static void feed(const motion_t *motion, uint32_t begin, uint32_t end)
 {
     for (uint32_t k = begin; k < end; ++k) {
         const jcal_hinge_sample_t s = sample_of(motion, k);
-        (void)jcal_hinge_refine_add(&engine, &s);
+        (void)jcal_hinge_refine_add(&engine.refine, &engine.cfg, &engine.coarse, &s);
     }
 }
 
 /* NaN in the sums of the specific forces: then there is no step, and the sums stay as the block left them. */
 static void hold_still(void)
 {
-    engine.moments.acc[0] = NAN;
+    engine.coarse.moments.acc[0] = NAN;
 }
 
 static void set_phase(double complex phase)
@@ -349,7 +350,7 @@ static void enter_block(double complex phase, const jcal_hinge_refine_t *before)
     double acc[4];
     double gain[4][4];
     dsums(&block, phase, matrix, score);
-    dacc_score(&block, (double)engine.acc_constant_m_s2, acc);
+    dacc_score(&block, (double)engine.coarse.acc_constant_m_s2, acc);
     const int n = ledger.count++;
     ledger.trace[n] = matrix[0] + matrix[9] + matrix[18] + matrix[27];
     ledger.information += ledger.trace[n];
@@ -404,7 +405,7 @@ static void feed_with_ledger(const motion_t *motion, uint32_t begin, uint32_t en
             const double turn = before.has_last ? (0.5 * block.dt_s[0] * (along + last)) : 0.0;
             phase = ((double)before.phase.re + dimaginary((double)before.phase.im)) * dturn(turn);
         }
-        (void)jcal_hinge_refine_add(&engine, &s);
+        (void)jcal_hinge_refine_add(&engine.refine, &engine.cfg, &engine.coarse, &s);
         if (engine.refine.block.time_s == 0.0f) {
             enter_block(phase, &before);
         }
@@ -415,7 +416,7 @@ static void begin_ledger(const motion_t *motion, uint32_t first)
 {
     memset(&ledger, 0, sizeof ledger);
     start_beside(motion, 0.8f, 0.7f);
-    engine.acc_constant_m_s2 = 0.2f;
+    engine.coarse.acc_constant_m_s2 = 0.2f;
     dblock_begin(&block, &engine);
     for (uint32_t k = first; k < (first + BLOCK_SAMPLES); ++k) {
         const jcal_hinge_sample_t s = sample_of(motion, k);
@@ -481,23 +482,23 @@ static void a_step_leads_to_where_sums_pull_and_prior_balance(void)
 {
     const motion_t motion = motion_for(2, 0.02);
     begin_ledger(&motion, 50);
-    jcal_hinge_point_set(&engine.point, beside(engine.point.axis1.j, jcal_vec3(1.0f, 0.0f, 0.0f), 1.0f),
-                         beside(engine.point.axis2.j, jcal_vec3(0.0f, 1.0f, 0.0f), 1.0f));
+    jcal_hinge_point_set(&engine.coarse.point, beside(engine.coarse.point.axis1.j, jcal_vec3(1.0f, 0.0f, 0.0f), 1.0f),
+                         beside(engine.coarse.point.axis2.j, jcal_vec3(0.0f, 1.0f, 0.0f), 1.0f));
     for (uint32_t k = 50; k < 450; ++k) { /* specific forces pull too */
         const jcal_hinge_sample_t s = sample_of(&motion, k);
         dsample_t d = {{{0.0}}, {{0.0}}, 0.0, 0.02};
         dset(s.a1, d.a[0]);
         dset(s.a2, d.a[1]);
-        add_to_moments(&d, &engine.moments);
+        add_to_moments(&d, &engine.coarse.moments);
     }
     feed_with_ledger(&motion, 50, 330);
     jcal_hinge_lin_t acc;
-    jcal_hinge_linearise_acc(&engine.moments, &engine.cfg, &engine.refine.point, &acc);
+    jcal_hinge_linearise_acc(&engine.coarse.moments, &engine.cfg, &engine.refine.point, &acc);
     const double noise = (double)engine.refine.cost / (2.0 * (double)engine.refine.units);
     const double pull = 10.0 + (6000.0 * noise / (double)engine.refine.blocks);
     for (size_t i = 0; i < 4; ++i) {
         double axis[3];
-        const jcal_hinge_axis_t *const to = (i < 2u) ? &engine.point.axis1 : &engine.point.axis2;
+        const jcal_hinge_axis_t *const to = (i < 2u) ? &engine.coarse.point.axis1 : &engine.coarse.point.axis2;
         const jcal_hinge_axis_t *const at = (i < 2u) ? &engine.refine.point.axis1 : &engine.refine.point.axis2;
         dset(to->j, axis);
         double tangent[3];
@@ -537,7 +538,7 @@ static void the_phase_is_found_once_and_then_carried_from_block_to_block(void)
     int compared = 0;
     for (uint32_t k = 0; k < 1500; ++k) {
         s = sample_of(&motion, k);
-        (void)jcal_hinge_refine_add(&engine, &s);
+        (void)jcal_hinge_refine_add(&engine.refine, &engine.cfg, &engine.coarse, &s);
         if (k == 9) { /* 0.1 s: its sums are of no use, its phase is */
             TEST_ASSERT_EQUAL_FLOAT(0.0f, engine.refine.blocks);
             TEST_ASSERT_EQUAL_FLOAT(0.0f, engine.refine.matrix[0]);
@@ -593,7 +594,7 @@ static void blocks_last_a_tenth_of_the_time_covered_within_limits(void)
         const float before_s = engine.refine.block.time_s;
         known = (before_s > 0.0f) ? known : (engine.refine.phase_weight > 0.0f);
         const jcal_hinge_sample_t s = sample_of(&motion, k);
-        (void)jcal_hinge_refine_add(&engine, &s);
+        (void)jcal_hinge_refine_add(&engine.refine, &engine.cfg, &engine.coarse, &s);
         if (engine.refine.block.time_s > 0.0f) {
             continue;
         }
@@ -724,13 +725,13 @@ static void a_bias_of_the_gyroscopes_is_found(void)
         const motion_t motion = motion_for(seed, 0.0);
         setUp();
         start_beside(&motion, 1.0f, 1.0f);
-        const jcal_vec3_t b1 = jcal_vec3_scale(engine.point.axis1.u, 0.01f);
-        const jcal_vec3_t b2 = jcal_vec3_scale(jcal_hinge_v(&engine.point.axis2), -0.01f);
+        const jcal_vec3_t b1 = jcal_vec3_scale(engine.coarse.point.axis1.u, 0.01f);
+        const jcal_vec3_t b2 = jcal_vec3_scale(jcal_hinge_v(&engine.coarse.point.axis2), -0.01f);
         for (uint32_t k = 0; k < 2000; ++k) {
             jcal_hinge_sample_t s = sample_of(&motion, k);
             s.w1 = jcal_vec3_add(s.w1, b1);
             s.w2 = jcal_vec3_add(s.w2, b2);
-            (void)jcal_hinge_refine_add(&engine, &s);
+            (void)jcal_hinge_refine_add(&engine.refine, &engine.cfg, &engine.coarse, &s);
         }
         const float unit = engine.cfg.gyr_bias_rad_s;
         const jcal_hinge_point_t *const p = &engine.refine.point;
@@ -764,7 +765,7 @@ static void planar_motion_shows_the_axes_to_first_order(void)
         start_beside(&motion, 3.0f, 3.0f);
         for (uint32_t k = 0; k < 2000; ++k) {
             const jcal_hinge_sample_t s = planar_sample(&motion, k);
-            (void)jcal_hinge_refine_add(&engine, &s);
+            (void)jcal_hinge_refine_add(&engine.refine, &engine.cfg, &engine.coarse, &s);
         }
         TEST_ASSERT_TRUE(error_of(&motion, 0) < 0.5f * JCAL_RAD_PER_DEG);
         TEST_ASSERT_TRUE(error_of(&motion, 1) < 0.5f * JCAL_RAD_PER_DEG);
@@ -782,7 +783,7 @@ static void noisy_planar_motion_shows_the_axes_too(void)
             jcal_hinge_sample_t s = planar_sample(&motion, k);
             s.w1 = jcal_vec3_add(s.w1, jcal_vec3_scale(jcal_rng_unit(&rng), 0.01f));
             s.w2 = jcal_vec3_add(s.w2, jcal_vec3_scale(jcal_rng_unit(&rng), 0.01f));
-            (void)jcal_hinge_refine_add(&engine, &s);
+            (void)jcal_hinge_refine_add(&engine.refine, &engine.cfg, &engine.coarse, &s);
         }
         /* 0.01 / sqrt(3) rad/s beside 1 rad/s and more along, 3000 samples: some hundredths of a degree. */
         TEST_ASSERT_TRUE(error_of(&motion, 0) < 0.1f * JCAL_RAD_PER_DEG);
@@ -800,7 +801,7 @@ static void axes_far_from_those_of_the_moments_begin_anew_there(void)
         const float degrees[2] = {10.0f, 14.0f}; /* up to 11.5 deg it is the same minimum */
         for (int n = 0; n < 2; ++n) {
             engine = kept;
-            jcal_hinge_axis_t *const to = (axis == 0) ? &engine.point.axis1 : &engine.point.axis2;
+            jcal_hinge_axis_t *const to = (axis == 0) ? &engine.coarse.point.axis1 : &engine.coarse.point.axis2;
             jcal_hinge_axis_set(to, beside(to->j, jcal_vec3(0.0f, 0.6f, 0.8f), degrees[n]));
             uint32_t k = 500;
             do { /* to the end of the next block */
@@ -812,7 +813,7 @@ static void axes_far_from_those_of_the_moments_begin_anew_there(void)
                 TEST_ASSERT_TRUE(error_of(&motion, axis) < 0.2f * JCAL_RAD_PER_DEG);
             } else {
                 jcal_hinge_refine_t anew;
-                jcal_hinge_refine_restart(&anew, &engine.point);
+                jcal_hinge_refine_restart(&anew, &engine.coarse.point);
                 TEST_ASSERT_EQUAL_MEMORY(&anew, &engine.refine, offsetof(jcal_hinge_refine_t, has_last));
                 TEST_ASSERT_FALSE(engine.refine.has_last);
             }
@@ -841,8 +842,8 @@ static void a_jump_gives_up_what_the_sums_know_of_that_axis_and_keeps_the_other(
             feed(&motion, next, next + 1u);
             ++next;
         }
-        engine.moments.acc[0] = 0.0f;
-        jcal_hinge_point_set(&engine.point, motion_axis(&motion, 0), motion_axis(&motion, 1));
+        engine.coarse.moments.acc[0] = 0.0f;
+        jcal_hinge_point_set(&engine.coarse.point, motion_axis(&motion, 0), motion_axis(&motion, 1));
         const jcal_hinge_refine_t before = engine.refine;
         TEST_ASSERT_TRUE(before.blocks > 30.0f);
         dblock_begin(&block, &engine);

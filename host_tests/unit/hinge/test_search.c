@@ -3,6 +3,8 @@
 /// Tests of lib/hinge/search.h and hinge/point.h: starts, rounds, what a probe's end is filed as.
 #include "hinge/refine.h"
 #include "hinge/search.h"
+#include "hinge/stream.h"
+#include "joint/sign.h"
 #include "math/solve.h"
 #include "unit/hinge/double.h"
 #include "unit/hinge/motion.h"
@@ -20,13 +22,13 @@ static double rates4[2][3][3]; /* weighted sum of |w|^2 w w' */
 
 static void sum_up(double sign_of_a2)
 {
-    memset(&engine.moments, 0, sizeof engine.moments);
+    memset(&engine.coarse.moments, 0, sizeof engine.coarse.moments);
     for (int k = 0; k < SAMPLES; ++k) {
         dsample_t s = samples[k];
         for (int i = 0; i < 3; ++i) {
             s.a[1][i] *= sign_of_a2;
         }
-        add_to_moments(&s, &engine.moments);
+        add_to_moments(&s, &engine.coarse.moments);
     }
 }
 
@@ -89,12 +91,12 @@ static jcal_hinge_place_t place_of(const jcal_hinge_point_t *point)
 /* An estimate as it stands after a while of refining and judging. */
 static void place_at(jcal_hinge_point_t point)
 {
-    engine.point = point;
-    engine.has_point = true;
+    engine.coarse.point = point;
+    engine.coarse.has_point = true;
     jcal_hinge_refine_restart(&engine.refine, &point);
     engine.refine.blocks = 5.0f;
     engine.verdict.status = (uint8_t)JCAL_READY;
-    engine.agreed = 6u;
+    engine.verdict.agreed = 6u;
 }
 
 static void place_at_truth(void)
@@ -156,7 +158,7 @@ static void get_start(int start, jcal_vec3_t out[2])
 {
     engine.search.running = false;
     engine.search.start = (uint8_t)start;
-    jcal_hinge_search(&engine);
+    jcal_hinge_look_around(&engine);
     TEST_ASSERT_TRUE(engine.search.running);
     out[0] = engine.search.probe.j1;
     out[1] = engine.search.probe.j2;
@@ -213,9 +215,9 @@ static void the_last_start_is_the_estimate_with_axis_2_turned_round(void)
 {
     place_at_truth();
     engine.search.start = EIGEN_STARTS;
-    jcal_hinge_search(&engine);
-    const jcal_vec3_t turned = jcal_vec3_scale(engine.point.axis2.j, -1.0f);
-    TEST_ASSERT_EQUAL_MEMORY(&engine.point.axis1.j, &engine.search.probe.j1, sizeof turned);
+    jcal_hinge_look_around(&engine);
+    const jcal_vec3_t turned = jcal_vec3_scale(engine.coarse.point.axis2.j, -1.0f);
+    TEST_ASSERT_EQUAL_MEMORY(&engine.coarse.point.axis1.j, &engine.search.probe.j1, sizeof turned);
     TEST_ASSERT_EQUAL_FLOAT(turned.x, engine.search.probe.j2.x);
     TEST_ASSERT_EQUAL_FLOAT(turned.y, engine.search.probe.j2.y);
     TEST_ASSERT_EQUAL_FLOAT(turned.z, engine.search.probe.j2.z);
@@ -224,25 +226,25 @@ static void the_last_start_is_the_estimate_with_axis_2_turned_round(void)
 static void a_round_over_all_starts_is_counted_and_stops_counting_at_its_limit(void)
 {
     place_at_truth();
-    engine.excitation = 0.0f;
+    engine.amount.excitation = 0.0f;
     for (int k = 0; k < 1000; ++k) {
-        jcal_hinge_search(&engine);
+        jcal_hinge_look_around(&engine);
     }
     TEST_ASSERT_EQUAL_UINT8(0, engine.search.rounds); /* rounds over data in which no joint moved say nothing */
-    engine.excitation = 1.0f;
+    engine.amount.excitation = 1.0f;
     engine.search.running = false;
     engine.search.start = 0u;
     uint32_t starts = 0;
     for (int k = 0; (k < 1000) && (engine.search.rounds == 0u); ++k) {
         starts += engine.search.running ? 0u : 1u;
-        jcal_hinge_search(&engine);
+        jcal_hinge_look_around(&engine);
     }
     TEST_ASSERT_EQUAL_UINT8(1, engine.search.rounds);
     TEST_ASSERT_EQUAL_UINT32(EIGEN_STARTS + 1, starts);
     TEST_ASSERT_EQUAL_UINT8(0, engine.search.start);
     engine.search.rounds = UINT8_MAX;
     for (int k = 0; k < 1000; ++k) {
-        jcal_hinge_search(&engine);
+        jcal_hinge_look_around(&engine);
     }
     TEST_ASSERT_EQUAL_UINT8(UINT8_MAX, engine.search.rounds);
 }
@@ -255,7 +257,7 @@ static void end_probe_at(jcal_hinge_point_t point)
     engine.search.iterations = LAST_STEP;
     engine.search.running = true;
     engine.search.start = 0u;
-    jcal_hinge_search(&engine);
+    jcal_hinge_look_around(&engine);
     TEST_ASSERT_FALSE(engine.search.running);
 }
 
@@ -277,18 +279,18 @@ static jcal_hinge_point_t elsewhere(uint32_t which)
 
 static float cost_at(const jcal_hinge_point_t *point)
 {
-    return jcal_hinge_cost(&engine.moments, &engine.cfg, point);
+    return jcal_hinge_cost(&engine.coarse.moments, &engine.cfg, point);
 }
 
 static void assert_begun_anew(const jcal_hinge_point_t *expected)
 {
-    assert_point(expected, &engine.point, STAYS_RAD);
+    assert_point(expected, &engine.coarse.point, STAYS_RAD);
     assert_point(expected, &engine.refine.point, STAYS_RAD);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, engine.refine.blocks);
     TEST_ASSERT_EQUAL_UINT8(JCAL_COLLECTING, engine.verdict.status); /* what was judged was another estimate */
     TEST_ASSERT_EQUAL_UINT8(JCAL_REASON_NO_DATA, engine.verdict.reason);
-    TEST_ASSERT_EQUAL_UINT8(0, engine.agreed);
-    TEST_ASSERT_TRUE(engine.has_point);
+    TEST_ASSERT_EQUAL_UINT8(0, engine.verdict.agreed);
+    TEST_ASSERT_TRUE(engine.coarse.has_point);
 }
 
 static void the_first_probe_that_ends_is_the_estimate(void)
@@ -320,14 +322,15 @@ static void of_worse_minima_elsewhere_the_best_is_the_rival(void)
     float best = INFINITY;
     for (uint32_t which = 0; which < 20; ++which) {
         const jcal_hinge_point_t worse = elsewhere(which);
-        TEST_ASSERT_TRUE(cost_at(&worse) > cost_at(&engine.point));
+        TEST_ASSERT_TRUE(cost_at(&worse) > cost_at(&engine.coarse.point));
         best = fminf(best, cost_at(&worse));
         end_probe_at(worse);
         TEST_ASSERT_TRUE(engine.search.has_rival);
-        TEST_ASSERT_FLOAT_WITHIN(1e-4f * best, best, jcal_hinge_cost_of_rival(&engine));
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f * best, best,
+                                 jcal_hinge_cost_of_rival(&engine.search, &engine.coarse.moments, &engine.cfg));
     }
     const jcal_hinge_point_t expected = truth();
-    assert_point(&expected, &engine.point, 0.0f);
+    assert_point(&expected, &engine.coarse.point, 0.0f);
     TEST_ASSERT_EQUAL_UINT8(JCAL_READY, engine.verdict.status);
     TEST_ASSERT_FALSE(engine.search.has_flip);
 }
@@ -342,12 +345,12 @@ static void the_same_lines_with_the_other_pairing_are_the_flip(void)
     TEST_ASSERT_TRUE(engine.search.has_flip);
     TEST_ASSERT_FALSE(engine.search.has_rival);
     assert_place(&wrong, &engine.search.flip, STAYS_RAD);
-    assert_point(&right, &engine.point, 0.0f);
+    assert_point(&right, &engine.coarse.point, 0.0f);
     /* Even a better one is only filed once there is something refined: the judgement decides then. */
     place_at(wrong);
     end_probe_at(right);
     assert_place(&right, &engine.search.flip, STAYS_RAD);
-    assert_point(&wrong, &engine.point, 0.0f);
+    assert_point(&wrong, &engine.coarse.point, 0.0f);
     TEST_ASSERT_EQUAL_UINT8(JCAL_READY, engine.verdict.status);
 }
 
@@ -367,12 +370,12 @@ static void with_a_hint_no_other_pairing_is_ever_filed(void)
 {
     const jcal_hinge_point_t right = truth();
     const jcal_hinge_point_t wrong = turned(&right);
-    const bool same = jcal_hinge_main_sign(right.axis1.j) == jcal_hinge_main_sign(right.axis2.j);
+    const bool same = jcal_sign_main(right.axis1.j) == jcal_sign_main(right.axis2.j);
     engine.cfg.sign_hint = same ? JCAL_SIGN_OPPOSITE : JCAL_SIGN_SAME; /* the wrong one */
     place_at(wrong);
     end_probe_at(right);
     TEST_ASSERT_FALSE(engine.search.has_flip);
-    assert_point(&wrong, &engine.point, 0.0f);
+    assert_point(&wrong, &engine.coarse.point, 0.0f);
 }
 
 static void turning_round_exchanges_the_estimate_and_the_flip(void)
@@ -384,12 +387,12 @@ static void turning_round_exchanges_the_estimate_and_the_flip(void)
     place_at(old);
     engine.search.flip = place_of(&flip);
     engine.search.has_flip = true;
-    const jcal_hinge_point_t seen = jcal_hinge_flipped(&engine);
+    const jcal_hinge_point_t seen = jcal_hinge_flipped(&engine.search, &engine.coarse.point);
     assert_point(&flip, &seen, 0.0f);
-    jcal_hinge_turn_round(&engine);
+    jcal_hinge_go_round(&engine);
     assert_begun_anew(&flip);
     assert_place(&old, &engine.search.flip, 0.0f);
-    jcal_hinge_turn_round(&engine);
+    jcal_hinge_go_round(&engine);
     assert_begun_anew(&old);
     assert_place(&flip, &engine.search.flip, 0.0f);
 }
@@ -397,12 +400,12 @@ static void turning_round_exchanges_the_estimate_and_the_flip(void)
 static void without_a_flip_the_other_pairing_is_axis_2_turned_round(void)
 {
     place_at_truth();
-    const jcal_hinge_point_t old = engine.point;
+    const jcal_hinge_point_t old = engine.coarse.point;
     const jcal_hinge_point_t expected = turned(&old);
-    const jcal_hinge_point_t seen = jcal_hinge_flipped(&engine);
+    const jcal_hinge_point_t seen = jcal_hinge_flipped(&engine.search, &engine.coarse.point);
     assert_point(&expected, &seen, 0.0f);
-    assert_point(&old, &engine.point, 0.0f);
-    jcal_hinge_turn_round(&engine);
+    assert_point(&old, &engine.coarse.point, 0.0f);
+    jcal_hinge_go_round(&engine);
     assert_begun_anew(&expected);
     TEST_ASSERT_TRUE(engine.search.has_flip);
     assert_place(&old, &engine.search.flip, 0.0f);
@@ -411,16 +414,16 @@ static void without_a_flip_the_other_pairing_is_axis_2_turned_round(void)
 static void a_search_without_an_estimate_finds_the_axes(void)
 {
     for (int k = 0; k < 400; ++k) {
-        jcal_hinge_search(&engine);
-        jcal_hinge_track(&engine);
+        jcal_hinge_look_around(&engine);
+        jcal_hinge_track(&engine.coarse, &engine.cfg, &engine.refine.point);
     }
-    TEST_ASSERT_TRUE(engine.has_point);
+    TEST_ASSERT_TRUE(engine.coarse.has_point);
     /* Noise of 0.01 rad/s, 8 s: a few tenths of a degree. */
     const jcal_hinge_point_t expected = truth();
-    TEST_ASSERT_TRUE(jcal_hinge_same_lines(&engine.point, &expected));
-    TEST_ASSERT_TRUE(jcal_hinge_same_pairing(&engine.point, &expected)); /* the specific forces are exact */
-    TEST_ASSERT_TRUE(fabsf(jcal_vec3_dot(engine.point.axis1.j, motion_axis(&motion, 0))) > 0.9999f);
-    TEST_ASSERT_TRUE(fabsf(jcal_vec3_dot(engine.point.axis2.j, motion_axis(&motion, 1))) > 0.9999f);
+    TEST_ASSERT_TRUE(jcal_hinge_same_lines(&engine.coarse.point, &expected));
+    TEST_ASSERT_TRUE(jcal_hinge_same_pairing(&engine.coarse.point, &expected)); /* the specific forces are exact */
+    TEST_ASSERT_TRUE(fabsf(jcal_vec3_dot(engine.coarse.point.axis1.j, motion_axis(&motion, 0))) > 0.9999f);
+    TEST_ASSERT_TRUE(fabsf(jcal_vec3_dot(engine.coarse.point.axis2.j, motion_axis(&motion, 1))) > 0.9999f);
 }
 
 static void sums_that_hold_nan_or_nothing_give_starts_along_the_coordinates_and_no_nan(void)
@@ -428,24 +431,24 @@ static void sums_that_hold_nan_or_nothing_give_starts_along_the_coordinates_and_
     const float bad[2] = {NAN, 0.0f};
     for (int i = 0; i < 2; ++i) {
         setUp();
-        for (size_t k = 0; k < sizeof engine.moments.gyr / sizeof(float); ++k) {
-            engine.moments.gyr[k] = bad[i];
+        for (size_t k = 0; k < sizeof engine.coarse.moments.gyr / sizeof(float); ++k) {
+            engine.coarse.moments.gyr[k] = bad[i];
         }
-        memset(engine.moments.acc, 0, sizeof engine.moments.acc);
+        memset(engine.coarse.moments.acc, 0, sizeof engine.coarse.moments.acc);
         for (int k = 0; k < 400; ++k) {
-            jcal_hinge_search(&engine);
+            jcal_hinge_look_around(&engine);
             TEST_ASSERT_TRUE(jcal_vec3_is_finite(engine.search.probe.j1) &&
                              jcal_vec3_is_finite(engine.search.probe.j2));
             TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f, jcal_vec3_norm(engine.search.probe.j1));
         }
-        TEST_ASSERT_TRUE(jcal_vec3_is_finite(engine.point.axis1.j));
+        TEST_ASSERT_TRUE(jcal_vec3_is_finite(engine.coarse.point.axis1.j));
     }
 }
 
 static void tracking_without_an_estimate_does_nothing(void)
 {
     const jcal_hinge_t before = engine;
-    jcal_hinge_track(&engine);
+    jcal_hinge_track(&engine.coarse, &engine.cfg, &engine.refine.point);
     TEST_ASSERT_EQUAL_MEMORY(&before, &engine, sizeof engine);
 }
 
@@ -499,11 +502,11 @@ static void both_signs_turned_together_are_the_same_pairing(void)
 
 static void the_main_sign_is_that_of_the_largest_component(void)
 {
-    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_hinge_main_sign(jcal_vec3(0.5f, -0.4f, -0.3f)));
-    TEST_ASSERT_EQUAL_FLOAT(-1.0f, jcal_hinge_main_sign(jcal_vec3(0.4f, -0.5f, 0.3f)));
-    TEST_ASSERT_EQUAL_FLOAT(-1.0f, jcal_hinge_main_sign(jcal_vec3(0.4f, 0.3f, -0.5f)));
-    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_hinge_main_sign(jcal_vec3(-0.4f, -0.3f, 0.5f)));
-    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_hinge_main_sign(jcal_vec3(0.0f, 0.0f, 0.0f)));
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_sign_main(jcal_vec3(0.5f, -0.4f, -0.3f)));
+    TEST_ASSERT_EQUAL_FLOAT(-1.0f, jcal_sign_main(jcal_vec3(0.4f, -0.5f, 0.3f)));
+    TEST_ASSERT_EQUAL_FLOAT(-1.0f, jcal_sign_main(jcal_vec3(0.4f, 0.3f, -0.5f)));
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_sign_main(jcal_vec3(-0.4f, -0.3f, 0.5f)));
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_sign_main(jcal_vec3(0.0f, 0.0f, 0.0f)));
 }
 
 int main(void)

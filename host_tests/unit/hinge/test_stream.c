@@ -185,7 +185,7 @@ static void gyroscope_and_accelerometer_biases_are_taken_up(void)
     }
     const float sign = (jcal_vec3_dot(axes[0]->j, motion_axis(&motion, 0)) < 0.0f) ? -1.0f : 1.0f;
     const float c = -sign * jcal_vec3_dot(motion_axis(&motion, 1), acc2);
-    TEST_ASSERT_FLOAT_WITHIN(0.05f, c, engine.acc_constant_m_s2);
+    TEST_ASSERT_FLOAT_WITHIN(0.05f, c, engine.coarse.acc_constant_m_s2);
 }
 
 int main(void)

@@ -72,7 +72,7 @@ static void the_weight_of_a_specific_force_falls_with_both_rates_and_while_a_pos
         const double variance = (0.7 * 0.7) + (2.0 * product * 2.0 * product);
         expected += dt / 0.05 / variance / (1.0 + dwell);
     }
-    const double sum = (double)engine.moments.acc[jcal_sym_at(6, 6)];
+    const double sum = (double)engine.coarse.moments.acc[jcal_sym_at(6, 6)];
     TEST_ASSERT_TRUE(fabs(sum - expected) < SUM_TOL * expected);
     TEST_ASSERT_TRUE((poses > 5) && (poses < SAMPLES / 2)); /* both cases were met */
 }
@@ -88,7 +88,7 @@ static void an_hour_of_rest_weighs_as_much_as_a_few_seconds(void)
         jcal_hinge_consume(&engine, &p);
     }
     /* Integral of 1 / (1 + t) over the first 10 s: ln 11 = 2.4 s. */
-    const double seconds = (double)engine.moments.acc[jcal_sym_at(6, 6)] * 0.05 * 0.7 * 0.7;
+    const double seconds = (double)engine.coarse.moments.acc[jcal_sym_at(6, 6)] * 0.05 * 0.7 * 0.7;
     TEST_ASSERT_TRUE(fabs(seconds - log(11.0)) < 0.05 * log(11.0));
 }
 
@@ -98,7 +98,7 @@ static double full_seconds(const jcal_pair_t *p)
     const jcal_vec3_t zero = {0.0f, 0.0f, 0.0f};
     const double rates2 = square(p->imu1.gyr_rad_s, zero) + square(p->imu2.gyr_rad_s, zero);
     const double x2 = (double)p->imu1.gyr_rad_s.x * (double)p->imu1.gyr_rad_s.x;
-    return (double)engine.moments.gyr[jcal_sym_at(0, 0)] / (x2 * x2) * 0.05 * 0.03 * 0.03 * (rates2 + 0.05);
+    return (double)engine.coarse.moments.gyr[jcal_sym_at(0, 0)] / (x2 * x2) * 0.05 * 0.03 * 0.03 * (rates2 + 0.05);
 }
 
 static void a_rest_of_any_length_weighs_less_than_two_seconds_in_the_rates(void)
@@ -128,7 +128,7 @@ static void the_rates_weigh_in_full_again_as_soon_as_a_sensor_turns(void)
         p.t_us = (uint64_t)k * 20000u;
         jcal_hinge_consume(&engine, &p);
     }
-    memset(&engine.moments, 0, sizeof engine.moments);
+    memset(&engine.coarse.moments, 0, sizeof engine.coarse.moments);
     p.imu2.gyr_rad_s.x = 0.15f; /* 0.0275 > 0.02 */
     for (uint32_t k = 501; k <= 550u; ++k) {
         p.t_us = (uint64_t)k * 20000u;
@@ -176,7 +176,7 @@ static void a_sample_stands_for_the_time_since_the_last_one_up_to_50_ms(void)
         const double rates2 = square(p.imu1.gyr_rad_s, zero) + square(p.imu2.gyr_rad_s, zero);
         const double expected = stands_for_s[i] / 0.05 / (0.03 * 0.03 * (rates2 + 0.05));
         const double x2 = (double)p.imu1.gyr_rad_s.x * (double)p.imu1.gyr_rad_s.x; /* the first feature */
-        const double sum = (double)engine.moments.gyr[jcal_sym_at(0, 0)];
+        const double sum = (double)engine.coarse.moments.gyr[jcal_sym_at(0, 0)];
         TEST_ASSERT_TRUE(fabs(sum - (expected * x2 * x2)) < SUM_TOL * expected * x2 * x2);
     }
 }
@@ -196,7 +196,7 @@ static double slices_in_four_seconds(double rate_hz)
         const jcal_pair_t p = motion_sample(&motion, k);
         jcal_hinge_consume(&engine, &p);
         const uint32_t done = (engine.slice + 16u - before) % 16u;
-        const bool closed = engine.has_point && !(engine.refine.block.time_s > 0.0f);
+        const bool closed = engine.coarse.has_point && !(engine.refine.block.time_s > 0.0f);
         TEST_ASSERT_TRUE(done <= 10u);
         const uint32_t judgements = ((before % 8u) + done) / 8u;
         paid += (double)((done * price) + judgements) + (closed ? close : 0.0);

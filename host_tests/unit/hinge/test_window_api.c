@@ -257,9 +257,65 @@ static void an_axis_on_which_the_engines_disagree_is_weak_and_not_ready(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, result_of(&other).head.reason);
 }
 
+static void before_the_first_full_solve_the_result_says_what_it_waits_for(void)
+{
+    config.solve_period_s = 60.0f; /* longer than the run: the guard is ready before there are axes */
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_window_init(&engine, &config, storage, sizeof storage));
+    const motion_t motion = motion_lively(9);
+    run(&engine, &motion, 0, 800);
+    jcal_hinge_result_t guard;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_get(&engine.guard, &guard));
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, guard.head.status);
+    const jcal_hinge_result_t r = result_of(&engine);
+    TEST_ASSERT_FALSE(r.has_axes);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, r.head.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_WEAK_AXIS1, r.head.weak);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_JOINT, r.head.hint);
+    TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, r.uncertainty1_rad);
+    TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, r.uncertainty2_rad);
+    TEST_ASSERT_TRUE(r.progress_axis1 < 0.1f);
+}
+
+static void ready_is_left_a_fifth_above_the_limit(void)
+{
+    const motion_t motion = motion_lively(9);
+    run(&engine, &motion, 0, 1000);
+    const jcal_hinge_result_t r = result_of(&engine);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
+    TEST_ASSERT_TRUE(engine.was_ready);
+    const float bound_rad = fmaxf(r.uncertainty1_rad, r.uncertainty2_rad);
+    engine.cfg.hinge.max_bound_rad = bound_rad / 1.19f;
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
+    engine.cfg.hinge.max_bound_rad = bound_rad / 1.21f;
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, result_of(&engine).head.reason);
+    engine.was_ready = false;
+    engine.cfg.hinge.max_bound_rad = bound_rad / 1.01f;
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).head.status);
+}
+
+static void the_sign_stays_once_the_guard_was_ready(void)
+{
+    const motion_t motion = motion_lively(9);
+    run(&engine, &motion, 0, 1000);
+    TEST_ASSERT_TRUE(engine.guard.kept_sign[0] != 0);
+    engine.guard.kept_sign[0] = 1;
+    engine.axes.j[0] = jcal_vec3(0.70f, -0.71f, 0.1f);
+    TEST_ASSERT_EQUAL_FLOAT(0.70f, result_of(&engine).axis1.x);
+    engine.axes.j[0] = jcal_vec3(-0.70f, 0.71f, 0.1f); /* the opposite, as the solver may find it */
+    TEST_ASSERT_EQUAL_FLOAT(0.70f, result_of(&engine).axis1.x);
+    engine.guard.kept_sign[0] = 0;
+    engine.cfg.hinge.axis1_toward = jcal_vec3(-1.0f, 0.0f, 0.0f);
+    TEST_ASSERT_EQUAL_FLOAT(-0.70f, result_of(&engine).axis1.x);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(before_the_first_full_solve_the_result_says_what_it_waits_for);
+    RUN_TEST(ready_is_left_a_fifth_above_the_limit);
+    RUN_TEST(the_sign_stays_once_the_guard_was_ready);
     RUN_TEST(samples_that_are_not_finite_are_rejected_and_counted);
     RUN_TEST(time_that_does_not_increase_is_rejected);
     RUN_TEST(impossible_readings_are_rejected);

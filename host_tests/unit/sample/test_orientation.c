@@ -161,12 +161,35 @@ static void the_first_pair_after_a_hole_is_refused(void)
     now_us += 245000u;
     pair = next(2);
     TEST_ASSERT_EQUAL_INT(JCAL_REJECT_GAP, check(&pair));
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, gate.bad_share); /* not the sensor's fault */
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, jcal_orientation_gate_complaint(&gate)); /* one alone says nothing */
     pair = next(3);
     TEST_ASSERT_EQUAL_INT(JCAL_REJECT_NONE, check(&pair));
     now_us += 230000u;
     pair = next(4);
     TEST_ASSERT_EQUAL_INT(JCAL_REJECT_NONE, check(&pair));
+}
+
+static void a_stream_of_which_more_than_a_fifth_is_bad_is_complained_of(void)
+{
+    for (int share = 0; share < 2; ++share) { /* a sixth, a third */
+        setUp();
+        for (int k = 1; k < 600; ++k) {
+            jcal_orientation_pair_t pair = next(k);
+            if ((k % ((share == 0) ? 6 : 3)) == 0) {
+                pair.q2.y = NAN;
+            }
+            (void)check(&pair);
+        }
+        TEST_ASSERT_EQUAL_INT((share == 0) ? JCAL_REASON_NONE : JCAL_REASON_BAD_SAMPLES,
+                              jcal_orientation_gate_complaint(&gate));
+    }
+    setUp();
+    for (int k = 1; k < 20; ++k) {
+        const jcal_orientation_pair_t pair = next(k);
+        (void)check(&pair);
+        now_us += 400000u; /* all that comes is after a hole, and none is taken */
+    }
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, jcal_orientation_gate_complaint(&gate));
 }
 
 static void the_cause_that_counts_is_the_first(void)
@@ -234,6 +257,7 @@ int main(void)
     RUN_TEST(a_turned_sign_is_another_number_but_the_same_orientation);
     RUN_TEST(the_first_pair_after_a_hole_is_refused);
     RUN_TEST(the_cause_that_counts_is_the_first);
+    RUN_TEST(a_stream_of_which_more_than_a_fifth_is_bad_is_complained_of);
     RUN_TEST(the_rate_is_that_of_the_turn);
     RUN_TEST(small_turns_keep_their_digits);
     RUN_TEST(signs_of_quaternions_do_not_matter_to_the_rate);

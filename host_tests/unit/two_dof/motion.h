@@ -65,4 +65,41 @@ static inline sim_t lively(int seed)
     return sim;
 }
 
+/* Both axes lie half-way between x and y of their sensors, one of them negative: which component is the largest is a matter of
+ * noise. */
+static inline sim_t tied(int seed)
+{
+    sim_t sim = lively(seed);
+    sim.joint.q_b1_s1 = pose_turn(0.5 * POSE_PI, 1.0, 1.0, 0.0);  /* z to (1, -1, 0) */
+    sim.joint.q_b2_s2 = pose_turn(0.25 * POSE_PI, 0.0, 0.0, 1.0); /* y to (-1, 1, 0) */
+    sim.skin = 0.006;
+    return sim;
+}
+
+/* What a source of orientations may do for ever: what is not a number, no length, the same value, a clock that stands far back, holes. */
+enum { FAULT_NAN, FAULT_LENGTH, FAULT_FROZEN, FAULT_CLOCK, FAULT_GAPS, FAULTS };
+
+/* The k-th pair after `good` of a source that fails so. */
+static inline jcal_orientation_pair_t failed(int fault, const sim_t *sim, uint32_t last, uint32_t k)
+{
+    jcal_orientation_pair_t pair = sample_of(sim, (fault == FAULT_GAPS) ? (last + (40u * k)) : (last + k));
+    switch (fault) {
+    case FAULT_NAN:
+        pair.q2.w = NAN;
+        break;
+    case FAULT_LENGTH:
+        pair.q1 = (jcal_quat_t){0.0f, 0.0f, 0.0f, 0.0f};
+        break;
+    case FAULT_FROZEN:
+        pair.q1 = sample_of(sim, last).q1;
+        break;
+    case FAULT_CLOCK:
+        pair.t_us = 1u;
+        break;
+    default:
+        break;
+    }
+    return pair;
+}
+
 #endif /* JCAL_TEST_TWO_DOF_MOTION_H */

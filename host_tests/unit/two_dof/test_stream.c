@@ -432,6 +432,17 @@ static void every_field_out_of_its_range_is_named(void)
         *fields[i].field = fields[i].high;
         TEST_ASSERT_NULL(jcal_two_dof_config_check(&c));
     }
+    float *const directions[6] = {&c.axis1_toward.x, &c.axis1_toward.y, &c.axis1_toward.z,
+                                  &c.axis2_toward.x, &c.axis2_toward.y, &c.axis2_toward.z};
+    for (int i = 0; i < 6; ++i) {
+        const float bad[3] = {NAN, INFINITY, 2e6f};
+        for (int k = 0; k < 3; ++k) {
+            c = config;
+            *directions[i] = bad[k];
+            TEST_ASSERT_EQUAL_STRING((i < 3) ? "axis1_toward" : "axis2_toward", jcal_two_dof_config_check(&c));
+        }
+    }
+    TEST_ASSERT_EQUAL_STRING("config", jcal_two_dof_config_check(NULL));
     c = config;
     c.constraint = (jcal_constraint_t)3;
     TEST_ASSERT_EQUAL_STRING("constraint", jcal_two_dof_config_check(&c));
@@ -463,6 +474,85 @@ static void no_orientation_is_lost_where_samples_become_rarer(void)
         gain[i] = engine.moments.weight - weight;
     }
     TEST_ASSERT_TRUE(gain[1] > 1.5f * gain[2]); /* what was left over, and its own */
+}
+
+static void a_source_that_fails_is_not_ready_for_long(void)
+{
+    const sim_t sim = lively(2);
+    const uint32_t last = 30u * RATE_HZ;
+    for (int fault = 0; fault < FAULTS; ++fault) {
+        setUp();
+        feed(&engine, &sim, 0, last + 1u);
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
+        for (uint32_t k = 1; k <= 2u * RATE_HZ; ++k) {
+            const jcal_orientation_pair_t pair = failed(fault, &sim, last, k);
+            TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_two_dof_update(&engine, &pair));
+        }
+        const jcal_two_dof_result_t r = result_of(&engine);
+        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, r.head.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
+        const uint32_t again = last + ((fault == FAULT_GAPS) ? (80u * RATE_HZ) : (2u * RATE_HZ));
+        feed(&engine, &sim, again + 1u, again + (8u * RATE_HZ)); /* the axes were not forgotten */
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
+    }
+}
+
+static void once_ready_signs_stay_although_the_largest_component_is_a_tie(void)
+{
+    uint32_t changes = 0; /* of the component that is the largest */
+    for (int seed = 0; seed < 4; ++seed) {
+        const sim_t sim = tied(seed);
+        jcal_two_dof_result_t before = {0};
+        setUp();
+        for (uint32_t k = 0; k < 60u * RATE_HZ; ++k) {
+            feed(&engine, &sim, k, k + 1u);
+            const jcal_two_dof_result_t r = result_of(&engine);
+            if (before.head.status == JCAL_READY) {
+                TEST_ASSERT_TRUE(jcal_vec3_dot(r.axis1, before.axis1) > 0.9f);
+                TEST_ASSERT_TRUE(jcal_vec3_dot(r.axis2, before.axis2) > 0.9f);
+                TEST_ASSERT_FLOAT_WITHIN(0.05f, before.carrying_angle_rad, r.carrying_angle_rad);
+                changes += ((fabsf(r.axis1.x) > fabsf(r.axis1.y)) != (fabsf(before.axis1.x) > fabsf(before.axis1.y)));
+                changes += ((fabsf(r.axis2.x) > fabsf(r.axis2.y)) != (fabsf(before.axis2.x) > fabsf(before.axis2.y)));
+            }
+            before = r;
+        }
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, before.head.status);
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(3u, changes); /* there were ties */
+}
+
+static void a_user_may_say_where_the_axes_point(void)
+{
+    const sim_t sim = lively(2);
+    const float senses[4][2] = {{1.0f, 1.0f}, {1.0f, -1.0f}, {-1.0f, 1.0f}, {-1.0f, -1.0f}};
+    for (int i = 0; i < 4; ++i) {
+        setUp();
+        config.axis1_toward = jcal_vec3_scale(pose_axis1(&sim.joint), 1e-3f * senses[i][0]);
+        config.axis2_toward = jcal_vec3_scale(pose_axis2(&sim.joint), 1e3f * senses[i][1]);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_two_dof_init(&engine, &config));
+        feed(&engine, &sim, 0, 30u * RATE_HZ);
+        const jcal_two_dof_result_t r = result_of(&engine);
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
+        TEST_ASSERT_TRUE(senses[i][0] * jcal_vec3_dot(r.axis1, pose_axis1(&sim.joint)) > 0.9f);
+        TEST_ASSERT_TRUE(senses[i][1] * jcal_vec3_dot(r.axis2, pose_axis2(&sim.joint)) > 0.9f);
+        TEST_ASSERT_DOUBLE_WITHIN(0.02, (double)(senses[i][0] * senses[i][1]) * sim.joint.carrying,
+                                  (double)r.carrying_angle_rad);
+    }
+}
+
+static void what_was_never_prepared_does_nothing(void)
+{
+    const sim_t sim = lively(1);
+    const jcal_orientation_pair_t pair = sample_of(&sim, 0);
+    memset(&engine, 0, sizeof engine);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_two_dof_push(&engine, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_two_dof_step(&engine));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_two_dof_update(&engine, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_CONFIG, jcal_two_dof_reset(&engine));
+    TEST_ASSERT_FALSE(result_of(&engine).has_axes);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).head.status);
 }
 
 static void pushes_without_a_step_do_not_overflow(void)
@@ -502,5 +592,9 @@ int main(void)
     RUN_TEST(before_any_data_nothing_is_claimed);
     RUN_TEST(no_orientation_is_lost_where_samples_become_rarer);
     RUN_TEST(pushes_without_a_step_do_not_overflow);
+    RUN_TEST(a_source_that_fails_is_not_ready_for_long);
+    RUN_TEST(once_ready_signs_stay_although_the_largest_component_is_a_tie);
+    RUN_TEST(a_user_may_say_where_the_axes_point);
+    RUN_TEST(what_was_never_prepared_does_nothing);
     return UNITY_END();
 }

@@ -19,19 +19,19 @@ static jcal_two_dof_config_t config;
 static jcal_two_dof_evidence_t evidence;
 static jcal_two_dof_verdict_t verdict;
 static float covariance[JCAL_SYM_SIZE(UNKNOWNS)];
-static uint8_t agreed;
+static jcal_two_dof_point_t point;
 
 /* Evidence to which nothing is missing. */
 void setUp(void)
 {
     config = jcal_two_dof_config_default();
     memset(covariance, 0, sizeof covariance);
+    point = (jcal_two_dof_point_t){{0.0f, 0.0f, 1.0f}, {0.0f, 1.0f, 0.0f}, {1.0f, 0.0f}};
     for (unsigned i = 0u; i < UNKNOWNS; ++i) {
         covariance[jcal_sym_at(i, i)] = 1e-6f;
     }
     evidence = (jcal_two_dof_evidence_t){
-        .covariance = covariance, .moving_s = 20.0f, .cost = 40.0f, .tried = 200u, .exchanges = 20u};
-    agreed = 0u;
+        .point = &point, .covariance = covariance, .moving_s = 20.0f, .cost = 40.0f, .tried = 200u, .exchanges = 20u};
     jcal_two_dof_verdict_begin(&verdict, JCAL_COLLECTING);
 }
 
@@ -41,7 +41,7 @@ void tearDown(void)
 
 static jcal_calibration_t judge(void)
 {
-    jcal_two_dof_conclude(&verdict, &config, &evidence, &agreed);
+    jcal_two_dof_conclude(&verdict, &config, &evidence);
     return (jcal_calibration_t)verdict.status;
 }
 
@@ -122,7 +122,7 @@ static void each_lack_alone_prevents_ready(void)
     for (unsigned lack = 0u; lack < (sizeof reasons / sizeof reasons[0]); ++lack) {
         setUp();
         evidence = whole;
-        evidence.bad_share = (lack == 0u) ? 0.9f : 0.0f;
+        evidence.complaint = (lack == 0u) ? JCAL_REASON_BAD_SAMPLES : JCAL_REASON_NONE;
         evidence.moving_s = (lack == 1u) ? 0.2f : 20.0f;
         evidence.parts[0] = (lack == 2u) ? 1e6f : 0.0f;
         evidence.parts[1] = (lack == 3u) ? 1e6f : 0.0f;
@@ -191,6 +191,24 @@ static void ready_bears_a_little_more_than_it_asked_for(void)
     TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, judge_often());
 }
 
+static void signs_are_kept_from_ready_on_until_moved(void)
+{
+    point.j1 = (jcal_vec3_t){-0.1f, 0.0f, -0.99f};
+    config.axis2_toward = (jcal_vec3_t){0.0f, -2.0f, 0.0f};
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, judge());
+    TEST_ASSERT_EQUAL_INT8(0, verdict.sign1);
+    TEST_ASSERT_EQUAL_INT8(0, verdict.sign2);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, judge_often());
+    TEST_ASSERT_EQUAL_INT8(3, verdict.sign1); /* z stays positive */
+    TEST_ASSERT_EQUAL_INT8(-2, verdict.sign2);
+    evidence.complaint = JCAL_REASON_BAD_SAMPLES;
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, judge());
+    TEST_ASSERT_EQUAL_INT8(3, verdict.sign1);
+    jcal_two_dof_verdict_begin(&verdict, JCAL_MOVED);
+    TEST_ASSERT_EQUAL_INT8(0, verdict.sign1);
+    TEST_ASSERT_EQUAL_INT8(0, verdict.sign2);
+}
+
 static void moved_stays_until_there_is_motion(void)
 {
     jcal_two_dof_verdict_begin(&verdict, JCAL_MOVED);
@@ -226,6 +244,7 @@ int main(void)
     RUN_TEST(another_minimum_about_as_good_is_ambiguous);
     RUN_TEST(the_weakest_unknown_is_named);
     RUN_TEST(ready_bears_a_little_more_than_it_asked_for);
+    RUN_TEST(signs_are_kept_from_ready_on_until_moved);
     RUN_TEST(moved_stays_until_there_is_motion);
     RUN_TEST(the_covariance_is_the_inverse_whatever_the_units);
     return UNITY_END();

@@ -85,7 +85,7 @@ static void sums_are_those_of_the_rows(void)
     }
     jcal_two_dof_config_t cfg = config.two_dof;
     cfg.constraint = JCAL_CONSTRAINT_ORIENTATION;
-    const jcal_two_dof_rows_t all = {rows, ROWS, &cfg};
+    const jcal_two_dof_rows_t all = {rows, ROWS, &cfg, JCAL_REASON_NONE};
     const jcal_two_dof_point_t point = point_of(4);
     jcal_two_dof_window_sums_t sums;
     jcal_two_dof_window_sum(&all, &point, sine, &sums);
@@ -213,6 +213,48 @@ static void sensors_that_share_no_joint_are_never_ready(void)
     }
 }
 
+static void a_source_that_fails_is_not_ready_for_long(void)
+{
+    const sim_t sim = lively(2);
+    const uint32_t last = 40u * RATE_HZ;
+    for (int fault = 0; fault < FAULTS; ++fault) {
+        setUp();
+        feed(&engine, &sim, 0, last + 1u);
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
+        for (uint32_t k = 1; k <= 2u * RATE_HZ; ++k) {
+            const jcal_orientation_pair_t pair = failed(fault, &sim, last, k);
+            TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_two_dof_window_update(&engine, &pair));
+        }
+        const jcal_two_dof_result_t r = result_of(&engine);
+        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, r.head.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
+    }
+}
+
+static void once_ready_signs_stay_although_the_largest_component_is_a_tie(void)
+{
+    uint32_t changes = 0; /* of the component that is the largest */
+    for (int seed = 0; seed < 4; ++seed) {
+        const sim_t sim = tied(seed);
+        jcal_two_dof_result_t before = {0};
+        setUp();
+        for (uint32_t k = 0; k < 60u * RATE_HZ; ++k) {
+            feed(&engine, &sim, k, k + 1u);
+            const jcal_two_dof_result_t r = result_of(&engine);
+            if (before.head.status == JCAL_READY) {
+                TEST_ASSERT_TRUE(jcal_vec3_dot(r.axis1, before.axis1) > 0.9f);
+                TEST_ASSERT_TRUE(jcal_vec3_dot(r.axis2, before.axis2) > 0.9f);
+                changes += ((fabsf(r.axis1.x) > fabsf(r.axis1.y)) != (fabsf(before.axis1.x) > fabsf(before.axis1.y)));
+                changes += ((fabsf(r.axis2.x) > fabsf(r.axis2.y)) != (fabsf(before.axis2.x) > fabsf(before.axis2.y)));
+            }
+            before = r;
+        }
+    }
+    TEST_ASSERT_GREATER_THAN_UINT32(3u, changes); /* there were ties */
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -222,5 +264,7 @@ int main(void)
     RUN_TEST(ready_is_reached_and_its_bounds_hold);
     RUN_TEST(a_joint_that_says_too_little_is_never_ready);
     RUN_TEST(sensors_that_share_no_joint_are_never_ready);
+    RUN_TEST(a_source_that_fails_is_not_ready_for_long);
+    RUN_TEST(once_ready_signs_stay_although_the_largest_component_is_a_tie);
     return UNITY_END();
 }

@@ -152,6 +152,27 @@ static void null_is_refused(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_two_dof_window_reset(NULL));
 }
 
+static void what_was_never_prepared_does_nothing(void)
+{
+    const sim_t sim = lively(1);
+    const jcal_orientation_pair_t pair = sample_of(&sim, 0);
+    for (int lack = 0; lack < 3; ++lack) {
+        memset(&engine, 0, sizeof engine);
+        engine.storage = (lack == 1) ? storage : NULL;
+        engine.cfg.n_max = (lack == 2) ? 200u : 0u;
+        engine.kept.ring.written = 1u; /* as if one waited */
+        TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_two_dof_window_push(&engine, &pair));
+        TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_two_dof_window_step(&engine));
+        TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_two_dof_window_update(&engine, &pair));
+        TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_two_dof_window_reset(&engine));
+        TEST_ASSERT_FALSE(result_of(&engine).has_axes);
+    }
+    memset(&engine, 0, sizeof engine);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_two_dof_window_attach(&engine, storage, sizeof storage));
+    TEST_ASSERT_EQUAL_STRING("config", jcal_two_dof_window_config_check(NULL));
+    TEST_ASSERT_EQUAL_UINT(0, jcal_two_dof_window_storage_bytes(NULL));
+}
+
 static void assert_same(const jcal_two_dof_result_t *a, const jcal_two_dof_result_t *b)
 {
     TEST_ASSERT_TRUE(a->has_axes);
@@ -203,6 +224,7 @@ int main(void)
     RUN_TEST(configs_out_of_range_are_refused);
     RUN_TEST(storage_that_does_not_fit_is_refused);
     RUN_TEST(null_is_refused);
+    RUN_TEST(what_was_never_prepared_does_nothing);
     RUN_TEST(reset_a_copy_and_other_times_change_no_bit);
     return UNITY_END();
 }

@@ -21,8 +21,7 @@ typedef struct {
     float still2_s;
     uint32_t samples;
     uint32_t rejected_by[JCAL_REJECT_COUNT];
-    float
-        bad_share;  ///< Share of samples that are out of range, frozen or repeated, averaged over about 2 s of samples.
+    float bad_share;  ///< Share of rejected samples, averaged over about 50 of them.
     bool has_last;
 } jcal_orientation_gate_t;
 

@@ -19,6 +19,14 @@ typedef struct {
     float acc[28];  ///< 7 x 7: products of (a1, -a2, 1).
 } jcal_hinge_moments_t;
 
+/// How much has gone into the sums.
+typedef struct {
+    float weight_acc;   ///< Sum of accelerometer weights ...
+    float weight_acc2;  ///< ... and of their squares per second.
+    float motion;       ///< Integral of the squared rates: what the sums are limited by.
+    float excitation;   ///< Integral of the squared difference of |w1| and |w2| beyond what errors make.
+} jcal_hinge_amount_t;
+
 #ifdef __cplusplus
 }
 #endif

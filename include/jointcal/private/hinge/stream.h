@@ -5,8 +5,7 @@
 #define JCAL_PRIVATE_HINGE_STREAM_H
 
 #include "jointcal/hinge_config.h"
-#include "jointcal/private/hinge/moments.h"
-#include "jointcal/private/hinge/point.h"
+#include "jointcal/private/hinge/coarse.h"
 #include "jointcal/private/hinge/refine.h"
 #include "jointcal/private/hinge/search.h"
 #include "jointcal/private/hinge/verdict.h"
@@ -22,8 +21,7 @@ typedef struct {
     jcal_hinge_config_t cfg;
     jcal_gate_t gate;
     jcal_inbox_t inbox;
-    jcal_hinge_moments_t moments;
-    jcal_hinge_point_t point;  ///< Minimum of the moments: where the refined axes begin.
+    jcal_hinge_coarse_t coarse;
     jcal_hinge_refine_t refine;
     jcal_hinge_search_t search;
     jcal_hinge_verdict_t verdict;
@@ -33,18 +31,12 @@ typedef struct {
     float dwell_s;       ///< ... and how long it has lasted.
     float rest_s;        ///< How long neither sensor has turned.
     float rate_product;  ///< Low-passed |w1| |w2|.
-    float weight_acc;    ///< Sum of accelerometer weights ...
-    float weight_acc2;   ///< ... and of their squares per second.
-    float motion;        ///< Integral of the squared rates: what the sums are limited by.
-    /// Integral of the squared difference of |w1| and |w2| beyond what errors make.
-    float excitation;
-    float acc_constant_m_s2;  ///< Estimate of c = j1 . b_a1 - j2 . b_a2.
-    float damping;
-    float credit_s;  ///< Time not yet paid for with slices of work.
+    jcal_hinge_amount_t amount;
+    float credit_s;       ///< Time not yet paid for with slices of work.
+    uint8_t slice;        ///< Next slice of the cycle.
+    int8_t kept_sign[2];  ///< Signs of both axes from the first `ready` on; lib/joint/sign.h.
+    bool has_last;
     uint64_t last_us;
-    uint8_t slice;   ///< Next slice of the cycle.
-    uint8_t agreed;  ///< Judgements in a row that found nothing missing.
-    bool has_last, has_point;
 } jcal_hinge_t;
 
 #ifdef __cplusplus

@@ -17,6 +17,7 @@ typedef struct {
     float sign_margin;
     float sign_progress;
     uint8_t status, weak, hint, reason;  ///< As in jcal_hinge_result_t.
+    uint8_t agreed;                      ///< Judgements in a row that found nothing missing.
 } jcal_hinge_verdict_t;
 
 #ifdef __cplusplus

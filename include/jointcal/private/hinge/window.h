@@ -52,6 +52,7 @@ typedef struct {
     jcal_hinge_accept_t accept;
     bool has_axes;
     bool has_stepped;
+    bool was_ready;       ///< After the last step; leaving `ready` takes more than entering it.
     uint64_t stepped_us;  ///< Time of the last sample that step worked off.
     uint64_t solve_due_us;
     /// A stream engine over the same samples: its bounds, its readiness; gate and inbox serve both.

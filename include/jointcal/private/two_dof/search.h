@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Where the work stands.
+/// Where the search for the axes stands.
 #ifndef JCAL_PRIVATE_TWO_DOF_SEARCH_H
 #define JCAL_PRIVATE_TWO_DOF_SEARCH_H
 
@@ -21,23 +21,21 @@ typedef struct {
     uint8_t steps;
 } jcal_two_dof_probe_t;
 
-/// Where the work stands.
+/// Where the search stands.
 typedef struct {
+    jcal_two_dof_probe_t best;  ///< The estimate.
     jcal_two_dof_probe_t probe;
     jcal_two_dof_point_t rival;  ///< Best other minimum.
     jcal_two_dof_lin_t lin;      ///< Of the point that is being worked on, rotation-based part first.
     float parts[2];              ///< Of the cost at the estimate: rotation-based, orientation-based ...
     float cost;                  ///< Cost of the estimate, prior included ...
     float rival_cost;            ///< ... and of the rival.
-    uint8_t turn;                ///< Next item of the cycle.
     uint8_t start;               ///< Which start the probe came from.
     uint8_t tried;               ///< Probes that ended since the sums began.
-    uint8_t agreed;              ///< Judgements in a row that found nothing missing.
     uint8_t since_exchange;      ///< Starts since the exchanged axes were one.
     uint8_t exchanges;           ///< How often they were, with this estimate.
-    uint8_t misfits;             ///< Judgements in a row that found that the data do not fit.
     bool half;                   ///< The rotation-based half of `lin` is done.
-    bool probing, has_rival;
+    bool has_best, has_rival, probing;
 } jcal_two_dof_search_t;
 
 #ifdef __cplusplus

@@ -19,6 +19,8 @@ typedef struct {
     float
         excess;  ///< Residuals, squared, over what the config takes for usual, at least 1: divides the data's information.
     uint8_t status, weak, hint, reason;  ///< As in jcal_two_dof_result_t.
+    uint8_t agreed;                      ///< Judgements in a row that found nothing missing.
+    int8_t sign1, sign2;                 ///< Which signs the axes are reported with; lib/joint/sign.h.
 } jcal_two_dof_verdict_t;
 
 #ifdef __cplusplus

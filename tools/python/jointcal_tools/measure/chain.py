@@ -16,6 +16,7 @@ from .harness import Report, Settings, median, number, percent, quantile, run_jo
 from .judge import available, recording
 
 TITLE = "Hip and knee: SAL15 simulated, and a person"
+VQF = "the person's thigh by LS"  # what of it needs VQF
 MOUNTINGS, BOUND_RUNS = 20, 200
 NAMES = ("hip to pelvis", "hip to thigh", "knee to thigh", "knee to shank")
 TYPE1_HIP_MM, TYPE1_KNEE_MM, TYPE2_MM = 30.0, 8.0, 2.0

@@ -31,6 +31,20 @@ class Settings:
         return self.runs or (quick if self.quick else full)
 
 
+def orientations_by(need: str, has_vqf: bool, quick: bool) -> str:
+    """What the head of a report says of orientations; `need` is what of it needs VQF. Without it a full measurement is none."""
+    if has_vqf:
+        return ", orientations by VQF"
+    if not quick:
+        raise Incomplete(f"the library was built without VQF, which {need} needs: tools/vqf.sh brings it, then build anew. "
+                         "Nothing was written: a table without it would hide that")
+    return f", WITHOUT VQF: {need} is missing"
+
+
+class Incomplete(Exception):
+    """A measurement that would lack a part of what it is for; the text says which and what to do."""
+
+
 class Skipped(Exception):
     """A measurement that cannot be made here; the text says why."""
 
@@ -107,6 +121,7 @@ class Report:
     command: str
     version: str
     quick: bool = False
+    source: str = ""  # where orientations come from, if it needs any
     body: list[str] = field(default_factory=list)
     requirements: list[Requirement] = field(default_factory=list)
 
@@ -150,7 +165,7 @@ class Report:
         self.require(f"{text}, at most {limit:g}{unit}", f"{value:.4g}{unit}", value <= limit, why)
 
     def markdown(self) -> str:
-        head = [f"# {self.title}", f"Written by `{self.command}`, library version {self.version}."]
+        head = [f"# {self.title}", f"Written by `{self.command}`, library version {self.version}{self.source}."]
         checks = "\n".join(requirement.line() for requirement in self.requirements)
         return "\n\n".join([*head, *self.body, *(["## Requirements", checks] if checks else [])]) + "\n"
 

@@ -20,6 +20,7 @@ from .judge import INFORMATIVE_RAD_S, RIG_HINGES, available, cut, joint_rate_rms
 from .reference import CLASSES, LENGTHS_S, VECTORS, Axes, angle_deg, make_spec, solve
 
 TITLE = "What orientations would add to a hinge"
+VQF = "all of it"  # what of it needs VQF
 RUNS = 200
 ROUNDS = 300  # of the alternating maximisation
 ALONE = "orientations alone"

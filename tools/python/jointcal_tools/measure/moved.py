@@ -17,6 +17,7 @@ from .judge import RIG_HINGES, available, cut, line_angle_deg, nominal_axes, rec
 from .two_dof import RIG as RIG_TWO_DOF
 
 TITLE = "Slips: how soon a sensor that has moved is noticed"
+VQF = "the joint with two axes"  # what of it needs VQF
 SIMULATED, ON_RIG = 200, 50  # slips, of each joint
 ANGLES_DEG = (10.0, 90.0)
 CALM = 150  # runs without a slip, of each joint

@@ -10,6 +10,7 @@ from .harness import Report, Settings, Skipped, median, number
 from .judge import available, recording
 
 TITLE = "A person's elbow and knee: repeatability"
+VQF = "all of it"  # what of it needs VQF
 RECORDINGS = ("human_elbow_right", "human_knee_left")
 PARTS_S = (20, 33)
 LIMITS_DEG = (3.0, 10.0, 28.0)  # of max_bound_rad: the default, and up to the largest that there is
@@ -38,7 +39,7 @@ def measure(settings: Settings, report: Report) -> None:
     if not two_dof.has_vqf():
         raise Skipped("the library was built without VQF; tools/vqf.sh brings it")
     report.text("Separate parts of a recording, each given to a fresh stream engine with both constraints. Apart: angles of the parts' "
-                "estimates to their mean, in the median, whether ready or not; bound: the median bound they state at the end. "
+                "estimates to their mean, in the median, whether ready or not; bound: the median bound they state at the end, 90 if none. "
                 "Elbow: forearm sensor distal; knee: taken for a joint with two axes, bending and turning. deg.")
     rows = []
     for name in names:

@@ -16,6 +16,7 @@ from .harness import Report, Settings, Skipped, median, number, percent, quantil
 from .judge import available, line_angle_deg, nominal_axes, recording
 
 TITLE = "2-DoF joint: rig recordings, whole and in windows"
+VQF = "all of it"  # what of it needs VQF
 RIG = ("rig_2D_01", "rig_2D_02", "rig_2D_05")
 CONSTRAINTS = ("combined", "rotation", "orientation")
 LENGTHS_S = (5, 10, 20)

@@ -16,6 +16,7 @@ from .harness import Report, Settings, Skipped, median, number, numbered, percen
 from .two_dof import errors_of, is_false, wrap_deg
 
 TITLE = "2-DoF joint, simulated: honest bounds and what must never be ready"
+VQF = "all of it"  # what of it needs VQF
 MOTIONS = ("free", "daily", "simple", "complex", "base_rest")
 NEVER = ("segment1_rest", "hinge", "pronation", "stiff", "rest", "three_dof", "alternating")
 RATES_HZ = (25.0, 40.0, 50.0, 100.0, 128.0, 200.0)

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: MIT */
+/* `jointcal chain`: its options, hip and knee, what it writes. */
+#include "commands/commands.h"
+#include "input/calibration_file.h"
+#include "options/values.h"
+#include "run/calibrate.h"
+
+#include "jointcal/jointcal.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- Options ---- */
+
+enum { KEY_METHOD = OPTION_OWN, KEY_SMOOTHING, KEY_THIGH_LENGTH, KEY_CALIBRATION };
+
+typedef struct {
+    jcal_chain_config_t config;
+    const char *calibration; /* file with the axes of the knee; null if not given */
+} chain_options_t;
+
+static const struct argp_option OPTIONS[] = {
+    {"method", KEY_METHOD, "NAME", 0,
+     "As for 'jointcal center': ss (default), sa; for research ls, which needs orientations and is hardly ever ready",
+     0},
+    {"smoothing", KEY_SMOOTHING, "S", 0, "As for 'jointcal center', 0 to 2 (default 0.12)", 0},
+    {"thigh-length", KEY_THIGH_LENGTH, "M", 0, "Distance of hip and knee in metres, if it is known: 0.05 to 1", 0},
+    {"calibration", KEY_CALIBRATION, "FILE", 0,
+     "The knee is a hinge with these axes: output of 'jointcal hinge --json' for thigh and shank. Its centre is then the point of the "
+     "axis next to both sensors",
+     0},
+    {NULL, 0, NULL, 0, NULL, 0}};
+
+static error_t parse(int key, char *argument, struct argp_state *state, void *self)
+{
+    static const char *const methods[] = {"ss", "sa", "ls"};
+    chain_options_t *options = self;
+    switch (key) {
+    case KEY_METHOD:
+        options->config.center.method = (jcal_center_method_t)option_one_of_three(state, "method", argument, methods);
+        return 0;
+    case KEY_SMOOTHING:
+        options->config.center.kinematics.smoothing_s = option_not_negative(state, "smoothing", argument);
+        return 0;
+    case KEY_THIGH_LENGTH:
+        options->config.segment_length_m = option_positive(state, "thigh-length", argument);
+        return 0;
+    case KEY_CALIBRATION:
+        options->calibration = argument;
+        return 0;
+    default:
+        return ARGP_ERR_UNKNOWN;
+    }
+}
+
+static void settle(struct argp_state *state, common_options_t *common, void *self)
+{
+    jcal_chain_config_t *config = &((chain_options_t *)self)->config;
+    config->center.memory_s = (common->window_s > 0.0f) ? common->window_s : config->center.memory_s;
+    config->center.max_bound_m = (common->max_bound > 0.0f) ? common->max_bound : config->center.max_bound_m;
+    common->max_bound = config->center.max_bound_m;
+    const common_limit_t limits[] = {
+        {"segment_length_m", "thigh-length", config->segment_length_m, "a number of metres from 0.05 to 1"},
+        {"memory_s", "window", config->center.memory_s, "a number of seconds from 10 to 3600"},
+        {"smoothing_s", "smoothing", config->center.kinematics.smoothing_s, "a number of seconds from 0 to 2"},
+        {"max_bound_m", "max-bound", config->center.max_bound_m, "a number of metres from 0.001 to 0.1"}};
+    common_check(state, jcal_chain_config_check(config), limits, sizeof limits / sizeof limits[0]);
+}
+
+static const command_line_t LINE = {
+    .args_doc = "RECORDING.csv",
+    .doc =
+        "Finds where three sensors, 1 on the pelvis, 2 on the thigh and 3 on the shank, sit relative to the centres of hip and knee, "
+        "from arbitrary motion.\v"
+        "The recording is as for 'jointcal hinge', with gyr3_x ... acc3_z besides. Results are the vectors from each joint's centre to "
+        "the sensors beside it, in the sensor's frame, and the distance of both centres. Orientations for --method ls are taken "
+        "from the columns q1_w ... q3_z or computed.\n"
+        "\n" COMMON_EXIT_HELP COMMON_PICTURE,
+    .offers =
+        {[COMMON_ENGINE] = {.help = "How to compute: stream (default). The chain has no other engine",
+                            .refusal = "--engine window: the chain has the stream engine only"},
+         [COMMON_N_MAX] = {.refusal = "--n-max goes with --engine window, which the chain does not have"},
+         [COMMON_WINDOW] = {.help =
+                                "Memory in seconds for what wanders, biases and headings: 10 to 3600 (default 300)"},
+         [COMMON_EVERY] = {.help = COMMON_EVERY_HELP},
+         [COMMON_MAX_BOUND] =
+             {.help = "Ready when both centres are known to within M metres from all sensors with 95 % confidence "
+                      "(default 0.01)"},
+         [COMMON_SIGN_HINT] = {.refusal = "--sign-hint is for a hinge: joint centres have no sign"},
+         [COMMON_JSON] = {.help = COMMON_JSON_HELP},
+         [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
+    .bound_unit = BOUND_IN_M,
+    .own = OPTIONS,
+    .parse = parse,
+    .settle = settle,
+};
+
+/* ---- The engine ---- */
+
+typedef struct {
+    jcal_chain_t chain;
+    bool oriented;
+    jcal_chain_result_t result;
+} chain_run_t;
+
+static bool push(void *self, const recording_row_t *row, uint64_t t_us)
+{
+    chain_run_t *run = self;
+    const jcal_triple_t triple = {t_us, row->imu1, row->imu2, row->imu3};
+    const jcal_triple_attitudes_t attitudes = {row->q1, row->q2, row->q3};
+    return jcal_chain_push(&run->chain, &triple, run->oriented ? &attitudes : NULL) >= JCAL_OK &&
+           jcal_chain_step(&run->chain) >= JCAL_OK;
+}
+
+static void reset(void *self)
+{
+    chain_run_t *run = self;
+    (void)jcal_chain_reset(&run->chain);
+}
+
+static const jcal_head_t *get(void *self)
+{
+    chain_run_t *run = self;
+    (void)jcal_chain_get(&run->chain, &run->result); /* the only error is a null pointer */
+    return &run->result.head;
+}
+
+/* ---- What is written ---- */
+
+static const report_words_t WORDS = {
+    .name = "Hip and knee",
+    .misfit =
+        "no fixed point of both segments explains the data: soft tissue, a joint that glides, sensors that share none, or another "
+        "thigh length than the one given",
+    .ambiguous = "other centres explain the data about equally",
+    .move_joint = "turn both segments of that joint about all axes, briskly",
+    .asked_for = "both centres from all sensors",
+    .bounded = "hip and knee",
+    .unit = "mm",
+    .per_unit = MM_PER_M,
+    .unknown = JCAL_BOUND_UNKNOWN_M,
+};
+
+static const char *const KEYS[JCAL_CHAIN_PLACES] = {"hip_to_pelvis_m", "hip_to_thigh_m", "knee_to_thigh_m",
+                                                    "knee_to_shank_m"};
+static const char *const LABELS[JCAL_CHAIN_PLACES] = {"hip to pelvis", "hip to thigh", "knee to thigh",
+                                                      "knee to shank"};
+
+/* The larger bound of each joint. */
+static report_bounds_t bounds(const void *self)
+{
+    const jcal_chain_result_t *result = &((const chain_run_t *)self)->result;
+    const float *bound = result->uncertainty_m;
+    return (report_bounds_t){result->has_places, fmaxf(bound[0], bound[1]), fmaxf(bound[2], bound[3])};
+}
+
+static void write_json(const void *self, json_t *json)
+{
+    const jcal_chain_result_t *result = &((const chain_run_t *)self)->result;
+    bool bounded = false;
+    for (int k = 0; k < JCAL_CHAIN_PLACES; k++) {
+        report_json_vector(json, KEYS[k], result->has_places, result->place_m[k]);
+        bounded = bounded || (result->has_places && result->uncertainty_m[k] < JCAL_BOUND_UNKNOWN_M);
+    }
+    json_numbers(json, "uncertainty_m", bounded, result->uncertainty_m, JCAL_CHAIN_PLACES);
+    json_number(json, "segment_length_m", result->has_places ? result->segment_length_m : NAN);
+    json_number(json, "uncertainty_segment_m",
+                (result->has_places && result->uncertainty_segment_m < JCAL_BOUND_UNKNOWN_M)
+                    ? result->uncertainty_segment_m
+                    : NAN);
+}
+
+static void print_places(FILE *file, const jcal_chain_result_t *result)
+{
+    for (int k = 0; k < JCAL_CHAIN_PLACES; k++) {
+        report_print_place(file, LABELS[k], result->place_m[k], result->uncertainty_m[k]);
+    }
+    (void)fprintf(file, "  %-18s %8.1f mm                     ", "from hip to knee",
+                  (double)(MM_PER_M * result->segment_length_m));
+    report_print_bound_mm(file, result->uncertainty_segment_m);
+}
+
+static void print_summary(const void *self, FILE *file, const report_t *report)
+{
+    const jcal_chain_result_t *result = &((const chain_run_t *)self)->result;
+    report_print_head(file, report);
+    if (result->has_places) {
+        print_places(file, result);
+    } else {
+        report_print_words(file, "places", "unknown");
+    }
+    report_print_orientations(file, report);
+    report_print_state(file, report);
+    report_print_exit(file, report);
+}
+
+/* ---- The command ---- */
+
+static const calibrate_joint_t CHAIN = {.words = &WORDS,
+                                        .third = true,
+                                        .uses_readings = true,
+                                        .push = push,
+                                        .reset = reset,
+                                        .get = get,
+                                        .bounds = bounds,
+                                        .write_json = write_json,
+                                        .print_summary = print_summary};
+
+int chain_command(int argc, char **argv)
+{
+    common_options_t common = {0};
+    chain_options_t options = {.config = jcal_chain_config_default()};
+    common_parse(&LINE, argc, argv, &common, &options);
+    if (!calibration_axes(options.calibration, &options.config.knee_axis2, &options.config.knee_axis3)) {
+        return EXIT_INPUT;
+    }
+    chain_run_t *run = calloc(1, sizeof *run);
+    exit_status_t status = EXIT_TROUBLE;
+    if (run == NULL || jcal_chain_init(&run->chain, &options.config) != JCAL_OK) {
+        complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
+    } else {
+        run->oriented = options.config.center.method == JCAL_CENTER_LS;
+        status = calibrate(&common, &CHAIN, run, run->oriented);
+    }
+    free(run);
+    return (int)status;
+}

@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: MIT */
+/* Angles row by row. */
+#include "run/angle_source.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Memory of the heading unless --window says otherwise, s. */
+#define MEMORY_S 10.0f
+
+/* The sign that an axis had before, or the one that the command line asks for. */
+static jcal_vec3_t settle_sign(jcal_vec3_t axis, bool has_before, jcal_vec3_t before, bool has_toward,
+                               jcal_vec3_t toward)
+{
+    if (has_toward) {
+        return jcal_axis_toward(axis, toward);
+    }
+    return has_before ? jcal_axis_toward(axis, before) : axis;
+}
+
+/* Takes over axes; what the engine calls their signs may change from row to row, what is written here may not. */
+static void set_axes(angle_source_t *source, jcal_vec3_t axis1, jcal_vec3_t axis2, float carrying_rad)
+{
+    const angle_source_config_t *config = &source->config;
+    angle_joint_t *joint = &source->joint;
+    const bool has_before = joint->axis1.x != 0.0f || joint->axis1.y != 0.0f || joint->axis1.z != 0.0f;
+    const jcal_vec3_t signed1 = settle_sign(axis1, has_before, joint->axis1, config->has_toward1, config->toward1);
+    jcal_vec3_t signed2 = settle_sign(axis2, has_before, joint->axis2, config->has_toward2, config->toward2);
+    const bool turned1 = jcal_vec3_dot(signed1, axis1) < 0.0f;
+    if (config->hinge) {
+        signed2 = turned1 ? jcal_vec3_scale(axis2, -1.0f) : axis2;
+    }
+    const bool turned2 = jcal_vec3_dot(signed2, axis2) < 0.0f;
+    joint->axis1 = signed1;
+    joint->axis2 = signed2;
+    joint->carrying_rad = (turned1 != turned2) ? -carrying_rad : carrying_rad;
+    joint->known = true;
+}
+
+static bool is_accepted(const angle_source_t *source, bool has_axes)
+{
+    return source->head.status == JCAL_READY || (source->config.accept_best && has_axes);
+}
+
+/* The calibration of this recording, up to this row. */
+static bool update_engine(angle_source_t *source, const recording_row_t *row,
+                          const jcal_orientation_pair_t *orientations)
+{
+    source->joint.known = false;
+    if (source->config.hinge) {
+        jcal_pair_t pair = {orientations->t_us, row->imu1, row->imu2};
+        if (!row->has_time) {
+            pair.imu1.gyr_rad_s.x = NAN;
+        }
+        jcal_hinge_result_t result;
+        if (jcal_hinge_update(&source->hinge, &pair) < 0 || jcal_hinge_get(&source->hinge, &result) != JCAL_OK) {
+            return false;
+        }
+        source->head = result.head;
+        if (is_accepted(source, result.has_axes)) {
+            set_axes(source, result.axis1, result.axis2, 0.0f);
+            source->joint.bound_rad = fmaxf(result.uncertainty1_rad, result.uncertainty2_rad);
+        }
+        return true;
+    }
+    jcal_two_dof_result_t result;
+    if (jcal_two_dof_update(&source->two_dof, orientations) < 0 ||
+        jcal_two_dof_get(&source->two_dof, &result) != JCAL_OK) {
+        return false;
+    }
+    source->head = result.head;
+    if (is_accepted(source, result.has_axes)) {
+        set_axes(source, result.axis1, result.axis2, result.carrying_angle_rad);
+        source->joint.bound_rad =
+            fmaxf(fmaxf(result.uncertainty1_rad, result.uncertainty2_rad), result.uncertainty_heading_rad);
+        source->joint.heading_rad = result.heading_offset_rad;
+    }
+    return true;
+}
+
+/* The heading offset of this row: of the engine, or followed with the axes that are known. */
+static bool update_heading(angle_source_t *source, const jcal_orientation_pair_t *orientations, jcal_heading_t *heading)
+{
+    const angle_joint_t *joint = &source->joint;
+    const bool hinge = source->config.hinge;
+    const float memory_s = (source->config.window_s > 0.0f) ? source->config.window_s : MEMORY_S;
+    *heading = (jcal_heading_t){joint->heading_rad, joint->known};
+    if (!joint->known || (!hinge && !source->given)) {
+        return true;
+    }
+    jcal_joint_heading_t *follower = &source->follower;
+    jcal_status_t status = JCAL_OK;
+    if (source->has_follower) {
+        status = jcal_joint_heading_improve(follower, joint->axis1, joint->axis2, joint->carrying_rad);
+    } else if (hinge) {
+        status = jcal_joint_heading_hinge(follower, joint->axis1, joint->axis2, memory_s);
+    } else {
+        status = jcal_joint_heading_two_dof(follower, joint->axis1, joint->axis2, joint->carrying_rad, memory_s);
+    }
+    source->has_follower = true;
+    return status == JCAL_OK && jcal_joint_heading_push(follower, orientations) >= 0 &&
+           jcal_joint_heading_get(follower, heading) == JCAL_OK;
+}
+
+/* Angles with the axes and the heading of this row. */
+static bool compute(const angle_source_t *source, const jcal_orientation_pair_t *orientations, float heading_rad,
+                    jcal_joint_angles_t *angles)
+{
+    const angle_joint_t *joint = &source->joint;
+    jcal_joint_frames_t frames;
+    const bool hinge = source->config.hinge;
+    const jcal_status_t status = hinge ? jcal_frames_hinge(joint->axis1, joint->axis2, &frames)
+                                       : jcal_frames_two_dof(joint->axis1, joint->axis2, &frames);
+    if (status != JCAL_OK) {
+        return false;
+    }
+    const jcal_quat_t q = jcal_joint_orientation(&frames, orientations->q1, orientations->q2, heading_rad);
+    *angles = hinge ? jcal_hinge_angles(q) : jcal_two_dof_angles(q);
+    return true;
+}
+
+/* True where there are orientations: of a repeated reading or after a gap, too. */
+static bool is_usable(jcal_reject_t reject)
+{
+    return reject == JCAL_REJECT_NONE || reject == JCAL_REJECT_GAP || reject == JCAL_REJECT_REPEATED;
+}
+
+bool angle_source_start(angle_source_t *source, const angle_source_config_t *config, const calibration_t *calibration)
+{
+    memset(source, 0, sizeof *source);
+    source->config = *config;
+    source->given = calibration != NULL;
+    source->gate_config = jcal_gate_config_default();
+    jcal_hinge_config_t hinge = jcal_hinge_config_default();
+    jcal_two_dof_config_t two_dof = jcal_two_dof_config_default();
+    hinge.sign_hint = config->sign_hint;
+    if (config->max_bound_rad > 0.0f) {
+        hinge.max_bound_rad = config->max_bound_rad;
+        two_dof.max_bound_rad = config->max_bound_rad;
+    }
+    if (config->window_s > 0.0f) {
+        two_dof.memory_s = config->window_s;
+    }
+    if (calibration != NULL) {
+        set_axes(source, calibration->axis1, calibration->axis2, calibration->carrying_angle_rad);
+    }
+    return jcal_hinge_init(&source->hinge, &hinge) == JCAL_OK &&
+           jcal_two_dof_init(&source->two_dof, &two_dof) == JCAL_OK;
+}
+
+/* Angles of a row whose orientations are of use. */
+static bool angles_of(angle_source_t *source, jcal_orientation_pair_t *orientations, angles_row_t *out)
+{
+    jcal_heading_t heading;
+    orientations->q1 = jcal_quat_normalise(orientations->q1);
+    orientations->q2 = jcal_quat_normalise(orientations->q2);
+    if (!update_heading(source, orientations, &heading)) {
+        return false;
+    }
+    out->known = source->joint.known && heading.known;
+    source->at_end = out->known;
+    if (!out->known) {
+        return true;
+    }
+    out->heading_rad = heading.heading_rad;
+    out->bound_rad = source->joint.bound_rad;
+    return compute(source, orientations, heading.heading_rad, &out->angles);
+}
+
+bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, bool refused, angles_row_t *out)
+{
+    const recording_row_t *row = &oriented->row;
+    jcal_orientation_pair_t orientations = {row_clock_advance(&source->clock, row), row->q1, row->q2};
+    if (!row->has_time || oriented->reject != JCAL_REJECT_NONE) {
+        orientations.q1.w = NAN; /* the library's time has no NaN; the sample has */
+    }
+    if (oriented->restarted) { /* headings of before are gone */
+        (void)jcal_two_dof_reset(&source->two_dof);
+        source->has_follower = false;
+    }
+    *out = (angles_row_t){.t_us = row->t_us, .has_time = row->has_time};
+    const bool usable = is_usable(jcal_orientation_gate_check(&source->gate, &source->gate_config, &orientations));
+    if (!source->given && !update_engine(source, row, &orientations)) {
+        return false;
+    }
+    if (usable && !angles_of(source, &orientations, out)) {
+        return false;
+    }
+    if (refused && !source->config.accept_best) {
+        out->known = false;
+        source->at_end = false;
+    }
+    source->rows += out->known ? 1u : 0u;
+    return true;
+}

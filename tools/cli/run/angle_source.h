@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Angles row by row: with a calibration that is given, or with the one that the rows so far make.
+#ifndef JCAL_CLI_RUN_ANGLE_SOURCE_H
+#define JCAL_CLI_RUN_ANGLE_SOURCE_H
+
+#include "input/calibration_file.h"
+#include "input/orientations.h"
+#include "input/row_clock.h"
+#include "output/angle_table.h"
+
+#include "jointcal/jointcal.h"
+
+typedef struct {
+    bool hinge;  ///< Else two axes.
+    bool has_toward1, has_toward2;
+    jcal_vec3_t toward1, toward2;  ///< Where the axes point about.
+    bool accept_best;              ///< Take the best estimate, whatever its status.
+    float window_s;                ///< Memory of the heading; 0 for the default.
+    float max_bound_rad;           ///< 0 for the default.
+    jcal_sign_hint_t sign_hint;
+} angle_source_config_t;
+
+/// What is known of the joint at a row.
+typedef struct {
+    bool known;
+    jcal_vec3_t axis1, axis2;
+    float carrying_rad;
+    float bound_rad;
+    float heading_rad; /* of the engine; a follower has its own */
+} angle_joint_t;
+
+typedef struct {
+    bool at_end;       ///< The last row whose orientations were of use had angles.
+    uint64_t rows;     ///< Rows with angles.
+    jcal_head_t head;  ///< Of the calibration that the rows so far make.
+
+    /* Private. */
+    angle_source_config_t config;
+    bool given; /* the calibration is; else the engines find it */
+    jcal_hinge_t hinge;
+    jcal_two_dof_t two_dof;
+    jcal_orientation_gate_t gate;
+    jcal_gate_config_t gate_config;
+    angle_joint_t joint;
+    jcal_joint_heading_t follower;
+    bool has_follower;
+    row_clock_t clock;
+} angle_source_t;
+
+/// Prepares; `calibration` may be null. False if the library refuses the settings, which would be a mistake of this program.
+bool angle_source_start(angle_source_t *source, const angle_source_config_t *config, const calibration_t *calibration);
+
+/// Takes in a row and gives its angles, none if the recording as a whole is `refused`. False if the library refuses a call, which would be a mistake of this program.
+bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, bool refused, angles_row_t *out);
+
+#endif
