@@ -73,6 +73,7 @@ jcal_status_t jcal_chain_push(jcal_chain_t *self, const jcal_triple_t *triple,
 jcal_status_t jcal_chain_step(jcal_chain_t *self);
 
 /// Push and step in one call, for those who need no split; after pushes without steps it makes room first. Returns what push returned.
+/// Threads:  one task; no push beside it.
 jcal_status_t jcal_chain_update(jcal_chain_t *self, const jcal_triple_t *triple,
                                 const jcal_triple_attitudes_t *attitudes);
 

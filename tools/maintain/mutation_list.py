@@ -18,7 +18,6 @@ ENGINE = "lib/hinge/stream.c"
 RESIDUAL = "lib/hinge/window_residual.h"
 COST = "lib/hinge/window_cost.c"
 ACCEPT = "lib/hinge/window_accept.c"
-GATE = "lib/sample/gate.c"
 TWO = "lib/two_dof/model.c"
 MOMENTS = "lib/two_dof/moments.c"
 PRIOR = "lib/two_dof/prior.c"
@@ -348,6 +347,9 @@ MUTATIONS = [
     (INPUT, "const jcal_attitudes_t attitudes = self->attitudes[slot];",
      "const jcal_attitudes_t attitudes = self->attitudes[(slot + 1u) % JCAL_INBOX_CAPACITY];",
      "orientation of another pair in the inbox"),
+    (KINEMATICS, "forget_middle(self, t_us, dt_s);", "(void)forget_middle;", "a hole of 2^32 us"),
+    ("lib/two_dof/window.c", "keep_times(self, middle.at->t_us);", "(void)keep_times;", "ages after a clock that began anew"),
+    ("lib/hinge/window.c", "if (t_us < self->stepped_us) {", "if (t_us > self->stepped_us) {", "full solves after a clock that began anew"),
     (RING, "self->overrun += 1u;", "self->overrun += 0u;", "samples that find no room are counted"),
     (RING, "(at - self->taken) >= JCAL_INBOX_CAPACITY", "(at - self->taken) > JCAL_INBOX_CAPACITY", "room in the ring"),
     (KEPT, "self->pushes_of[slot] = self->pushes;", "self->pushes_of[slot] = 1u;", "work is shared out over the samples pushed"),
