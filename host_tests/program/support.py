@@ -13,7 +13,7 @@ from recordings import COLUMNS
 PROGRAM = str(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/host/jointcal").resolve())
 REJECT_KEYS = ["not_finite", "out_of_range", "saturated", "frozen", "repeated", "time_order", "gap"]
 KEYS = ["event", "t_s", "status", "engine", "weak", "hint", "reason", "axis1", "axis2", "uncertainty_deg",
-        "sign_margin", "samples", "rejected", "rejected_by"]
+        "sign_margin", "advice", "samples", "rejected", "rejected_by"]
 WINDOW_KEYS = KEYS[:11] + ["paper_accepted"] + KEYS[11:]
 CELLS = recordings.texts(recordings.hinge_rows(20))
 FILE = recordings.csv(CELLS)

@@ -32,7 +32,8 @@ extern "C" {
 /// What both engines say.
 typedef struct {
     jcal_head_t head;
-    bool has_center;                 ///< False until there is any estimate; then everything below is zero.
+    /// False until there is an estimate within JCAL_CENTER_REACH_M of both sensors. Then what follows is zero, and bounds are unknown.
+    bool has_center;
     jcal_vec3_t joint_to_sensor1_m;  ///< r1, from the joint centre to sensor 1, in sensor frame 1.
     jcal_vec3_t joint_to_sensor2_m;  ///< r2, from the joint centre to sensor 2, in sensor frame 2.
     /// 95 % bound of |r1 - truth|; JCAL_BOUND_UNKNOWN_M if unknown. With known hinge axes: across the axis.

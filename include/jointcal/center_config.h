@@ -11,6 +11,10 @@
 extern "C" {
 #endif
 
+/// No place is told that is further than this from a sensor, m: a thigh is 0.5 m long, and what lies further away than twice that is an
+/// estimate on its way, from data that say too little.
+#define JCAL_CENTER_REACH_M 1.0f
+
 /// What is minimised.
 typedef enum {
     JCAL_CENTER_SS = 0,  ///< The sum of squared differences: (15), (16) of [OLS17] (default).

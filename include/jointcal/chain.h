@@ -59,14 +59,19 @@ JCAL_MUST_CHECK jcal_status_t jcal_chain_init(jcal_chain_t *self, const jcal_cha
 
 /// Takes in one sample of all three. `attitudes` may be null unless the method is JCAL_CENTER_LS.
 ///
-/// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL.
+/// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL: neither joint has taken anything.
 jcal_status_t jcal_chain_push(jcal_chain_t *self, const jcal_triple_t *triple,
                               const jcal_triple_attitudes_t *attitudes);
 
 /// Works off one sample of each joint and a bounded slice of solving for each.
 ///
 /// Returns:  JCAL_OK; JCAL_IDLE if there was nothing; JCAL_ERR_ARG.
+/// Cost:     two steps of center.h; the ties of jcal_chain_get once per judgement, where a joint is not ready by itself.
 jcal_status_t jcal_chain_step(jcal_chain_t *self);
+
+/// Push and step in one call, for those who need no split; after pushes without steps it makes room first. Returns what push returned.
+jcal_status_t jcal_chain_update(jcal_chain_t *self, const jcal_triple_t *triple,
+                                const jcal_triple_attitudes_t *attitudes);
 
 /// Ties both joints together and says what is known. Errors: JCAL_ERR_ARG.
 ///

@@ -42,6 +42,9 @@ void jcal_gate_init(jcal_gate_t *self);
 /// Cost:     constant, about 150 floating-point operations; no square root but two.
 jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *config, const jcal_pair_t *pair);
 
+/// Counts a sample that something else than its readings excludes, as if this gate had rejected it.
+void jcal_gate_refuse(jcal_gate_t *self, jcal_reject_t cause);
+
 /// What is wrong with the stream as a whole: JCAL_REASON_NONE, _WRONG_UNITS_GYR, _WRONG_UNITS_ACC or _BAD_SAMPLES.
 jcal_reason_t jcal_gate_complaint(const jcal_gate_t *self);
 

@@ -39,6 +39,9 @@ static bool is_axis(jcal_vec3_t v)
 
 const char *jcal_center_config_check(const jcal_center_config_t *config)
 {
+    if (config == NULL) {
+        return "config";
+    }
     const field_t fields[] = {
         {"max_bound_m", config->max_bound_m, 0.001f, 0.1f},
         {"mismatch_m", config->mismatch_m, 0.0f, 0.05f},
@@ -80,7 +83,7 @@ jcal_center_window_config_t jcal_center_window_config_default(void)
 
 const char *jcal_center_window_config_check(const jcal_center_window_config_t *config)
 {
-    const char *const wrong = jcal_center_config_check(&config->center);
+    const char *const wrong = jcal_center_config_check((config == NULL) ? NULL : &config->center);
     if (wrong != NULL) {
         return wrong;
     }

@@ -11,6 +11,9 @@
 /// Forgets everything.
 void jcal_center_input_begin(jcal_center_input_t *self);
 
+/// True if there is no room for another pair.
+bool jcal_center_input_full(const jcal_center_input_t *self);
+
 /// Checks a pair and puts it into the inbox. `attitudes` may be null unless the method needs them.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED (counted); JCAL_ERR_FULL.

@@ -3,7 +3,9 @@
 /// Bounds and status of the joint centre. See center/judge.h.
 #include "center/judge.h"
 
+#include "center/place.h"
 #include "center/sums.h"
+#include "joint/hysteresis.h"
 #include "jointcal/vec3.h"
 #include "math/chol.h"
 #include "math/clear.h"
@@ -50,8 +52,6 @@
 
 /// Judgements in a row that found nothing missing.
 #define AGREED_MIN 3u
-/// A bound may grow by this before ready is lost.
-#define HYSTERESIS 1.2f
 
 /// Slices after the first two: pairs of columns, rows of both covariances, doubts, both bounds, the verdict.
 #define SLICE_COLUMNS (JCAL_CENTER_SLICE_FACTOR + 1u)
@@ -275,7 +275,7 @@ static void name_what_is_missing(const jcal_center_config_t *cfg, jcal_center_wo
 {
     jcal_center_verdict_t *const verdict = &self->verdict;
     const jcal_center_sums_t *const sums = &self->sums;
-    const float limit = cfg->max_bound_m * ((verdict->status == (uint8_t)JCAL_READY) ? HYSTERESIS : 1.0f);
+    const float limit = cfg->max_bound_m * ((verdict->status == (uint8_t)JCAL_READY) ? JCAL_HYSTERESIS : 1.0f);
     const unsigned worse = (b[1].all > b[0].all) ? 1u : 0u;
     const float still = TURN_MIN * sums->time_s;
     verdict->weak = (uint8_t)JCAL_WEAK_NONE;
@@ -319,11 +319,13 @@ static void find_hidden(const jcal_center_config_t *cfg, jcal_center_work_t *sel
 static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
 {
     jcal_center_verdict_t *const verdict = &self->verdict;
-    const bool enough = self->sums.blocks >= BLOCKS_MIN;
+    const jcal_center_place_t told = jcal_center_place_told(cfg, &self->sums.point.place);
+    const bool enough = (self->sums.blocks >= BLOCKS_MIN) && jcal_center_place_in_reach(&told);
     const jcal_center_bounds_t unknown = unknown_bounds();
     const jcal_center_bounds_t b[2] = {enough ? self->as.inverse.bounds[0] : unknown,
                                        enough ? self->as.inverse.bounds[1] : unknown};
     name_what_is_missing(cfg, self, b);
+    verdict->count = (uint8_t)(verdict->count + 1u);
     verdict->bound1_m = b[0].all;
     verdict->bound2_m = b[1].all;
     verdict->weakest1_m = b[0].weakest;

@@ -90,9 +90,15 @@ jcal_status_t jcal_center_reset(jcal_center_t *self)
     return (self == NULL) ? JCAL_ERR_ARG : jcal_center_init(self, &self->cfg);
 }
 
+/// False for null and for what init has never prepared: all zero, say.
+static bool is_prepared(const jcal_center_t *self)
+{
+    return (self != NULL) && (self->cfg.memory_s > 0.0f);
+}
+
 jcal_status_t jcal_center_push(jcal_center_t *self, const jcal_pair_t *pair)
 {
-    if ((self == NULL) || (pair == NULL) || (self->cfg.method == JCAL_CENTER_LS)) {
+    if (!is_prepared(self) || (pair == NULL) || (self->cfg.method == JCAL_CENTER_LS)) {
         return JCAL_ERR_ARG;
     }
     return jcal_center_input_push(&self->input, &self->cfg, pair, NULL);
@@ -100,7 +106,7 @@ jcal_status_t jcal_center_push(jcal_center_t *self, const jcal_pair_t *pair)
 
 jcal_status_t jcal_center_push_oriented(jcal_center_t *self, const jcal_pair_t *pair, const jcal_attitudes_t *attitudes)
 {
-    if ((self == NULL) || (pair == NULL) || (attitudes == NULL)) {
+    if (!is_prepared(self) || (pair == NULL) || (attitudes == NULL)) {
         return JCAL_ERR_ARG;
     }
     return jcal_center_input_push(&self->input, &self->cfg, pair, attitudes);
@@ -291,7 +297,7 @@ static void work_at_point(jcal_center_t *self)
 
 jcal_status_t jcal_center_step(jcal_center_t *self)
 {
-    if (self == NULL) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
     jcal_kinematic_t sample;

@@ -24,6 +24,12 @@
 #define WATCH_SHARE 5.0f
 #define WATCH_MOST 25.0f
 
+/// False for null and for what init has never prepared: all zero, say.
+static bool is_prepared(const jcal_center_window_t *self)
+{
+    return (self != NULL) && (self->storage != NULL) && (self->cfg.n_max > 0u);
+}
+
 static jcal_kinematic_t *samples_of(const jcal_center_window_t *self)
 {
     return (jcal_kinematic_t *)self->storage;
@@ -36,7 +42,7 @@ static bool storage_fits(const jcal_center_window_config_t *cfg, const void *sto
 
 size_t jcal_center_window_storage_bytes(const jcal_center_window_config_t *config)
 {
-    return JCAL_CENTER_WINDOW_STORAGE_BYTES(config->n_max);
+    return (config == NULL) ? 0u : JCAL_CENTER_WINDOW_STORAGE_BYTES(config->n_max);
 }
 
 /// Forgets what was learnt of the joint.
@@ -80,7 +86,7 @@ jcal_status_t jcal_center_window_init(jcal_center_window_t *self, const jcal_cen
 
 jcal_status_t jcal_center_window_attach(jcal_center_window_t *self, void *storage, size_t storage_bytes)
 {
-    if ((self == NULL) || (storage == NULL)) {
+    if ((self == NULL) || (self->cfg.n_max == 0u) || (storage == NULL)) {
         return JCAL_ERR_ARG;
     }
     if (!storage_fits(&self->cfg, storage, storage_bytes)) {
@@ -92,7 +98,7 @@ jcal_status_t jcal_center_window_attach(jcal_center_window_t *self, void *storag
 
 jcal_status_t jcal_center_window_reset(jcal_center_window_t *self)
 {
-    if (self == NULL) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
     forget(self);
@@ -101,7 +107,7 @@ jcal_status_t jcal_center_window_reset(jcal_center_window_t *self)
 
 jcal_status_t jcal_center_window_push(jcal_center_window_t *self, const jcal_pair_t *pair)
 {
-    if ((self == NULL) || (pair == NULL) || (self->cfg.center.method == JCAL_CENTER_LS)) {
+    if (!is_prepared(self) || (pair == NULL) || (self->cfg.center.method == JCAL_CENTER_LS)) {
         return JCAL_ERR_ARG;
     }
     return jcal_center_input_push(&self->input, &self->cfg.center, pair, NULL);
@@ -110,7 +116,7 @@ jcal_status_t jcal_center_window_push(jcal_center_window_t *self, const jcal_pai
 jcal_status_t jcal_center_window_push_oriented(jcal_center_window_t *self, const jcal_pair_t *pair,
                                                const jcal_attitudes_t *attitudes)
 {
-    if ((self == NULL) || (pair == NULL) || (attitudes == NULL)) {
+    if (!is_prepared(self) || (pair == NULL) || (attitudes == NULL)) {
         return JCAL_ERR_ARG;
     }
     return jcal_center_input_push(&self->input, &self->cfg.center, pair, attitudes);
@@ -197,7 +203,7 @@ static void iterate(jcal_center_window_t *self, float motion_s)
 
 jcal_status_t jcal_center_window_step(jcal_center_window_t *self)
 {
-    if ((self == NULL) || (self->storage == NULL)) {
+    if (!is_prepared(self)) {
         return JCAL_ERR_ARG;
     }
     jcal_kinematic_t sample;

@@ -3,12 +3,16 @@
 /// Hip and knee: config, samples to both joints, and what comes out of both.
 #include "jointcal/chain.h"
 
+#include "center/input.h"
 #include "center/judge.h"
 #include "chain/tie.h"
+#include "joint/head.h"
+#include "joint/hysteresis.h"
 #include "jointcal/vec3.h"
 #include "math/clear.h"
 #include "math/scalar.h"
 #include "math/sym.h"
+#include "sample/ring.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -41,7 +45,7 @@ static bool is_zero(jcal_vec3_t v)
 
 const char *jcal_chain_config_check(const jcal_chain_config_t *config)
 {
-    const char *const wrong = jcal_center_config_check(&config->center);
+    const char *const wrong = jcal_center_config_check((config == NULL) ? NULL : &config->center);
     if (wrong != NULL) {
         return wrong;
     }
@@ -90,6 +94,12 @@ jcal_status_t jcal_chain_reset(jcal_chain_t *self)
     return (self == NULL) ? JCAL_ERR_ARG : jcal_chain_init(self, &self->cfg);
 }
 
+/// False for null and for what init has never prepared: all zero, say.
+static bool is_prepared(const jcal_chain_t *self)
+{
+    return (self != NULL) && (self->cfg.segment_tolerance_m > 0.0f);
+}
+
 static jcal_status_t push_one(jcal_center_t *joint, const jcal_pair_t *pair, const jcal_attitudes_t *attitudes)
 {
     return (attitudes == NULL) ? jcal_center_push(joint, pair) : jcal_center_push_oriented(joint, pair, attitudes);
@@ -107,8 +117,13 @@ static size_t cause_of(const jcal_center_t *joint, const uint32_t *before)
 
 jcal_status_t jcal_chain_push(jcal_chain_t *self, const jcal_triple_t *triple, const jcal_triple_attitudes_t *attitudes)
 {
-    if ((self == NULL) || (triple == NULL) || ((attitudes == NULL) && (self->cfg.center.method == JCAL_CENTER_LS))) {
+    if (!is_prepared(self) || (triple == NULL) ||
+        ((attitudes == NULL) && (self->cfg.center.method == JCAL_CENTER_LS))) {
         return JCAL_ERR_ARG;
+    }
+    if (jcal_center_input_full(&self->hip.input) || jcal_center_input_full(&self->knee.input)) {
+        self->overrun += 1u;
+        return JCAL_ERR_FULL; /* before either joint takes anything: a sample that is pushed again must find no trace */
     }
     const jcal_pair_t pairs[2] = {{triple->t_us, triple->imu1, triple->imu2},
                                   {triple->t_us, triple->imu2, triple->imu3}};
@@ -123,9 +138,6 @@ jcal_status_t jcal_chain_push(jcal_chain_t *self, const jcal_triple_t *triple, c
         uint32_t before[JCAL_REJECT_COUNT];
         (void)memcpy(before, joints[i]->input.gate.rejected_by, sizeof before);
         const jcal_status_t status = push_one(joints[i], &pairs[i], (attitudes == NULL) ? NULL : &turns[i]);
-        if (status == JCAL_ERR_FULL) {
-            return status;
-        }
         if (status == JCAL_REJECTED) {
             const size_t own = cause_of(joints[i], before);
             cause = (own < cause) ? own : cause;
@@ -137,16 +149,6 @@ jcal_status_t jcal_chain_push(jcal_chain_t *self, const jcal_triple_t *triple, c
         return JCAL_REJECTED;
     }
     return JCAL_OK;
-}
-
-jcal_status_t jcal_chain_step(jcal_chain_t *self)
-{
-    if (self == NULL) {
-        return JCAL_ERR_ARG;
-    }
-    const jcal_status_t hip = jcal_center_step(&self->hip);
-    const jcal_status_t knee = jcal_center_step(&self->knee);
-    return ((hip == JCAL_IDLE) && (knee == JCAL_IDLE)) ? JCAL_IDLE : JCAL_OK;
 }
 
 /// A 3 x 3 block on the diagonal of the state's covariance.
@@ -245,7 +247,7 @@ static void tell_status(const jcal_chain_t *self, const joint_news_t *hip, const
     for (size_t i = 0u; i < 2u; ++i) {
         worst[i] = jcal_max(out->uncertainty_m[2u * i], out->uncertainty_m[(2u * i) + 1u]);
     }
-    const float limit = self->cfg.center.max_bound_m;
+    const float limit = self->cfg.center.max_bound_m * (self->was_ready ? JCAL_HYSTERESIS : 1.0f);
     const bool hip_known = is_sound(hip) && ((worst[0] <= limit) || (hip->status == JCAL_READY));
     const bool knee_known = is_sound(knee) && ((worst[1] <= limit) || (knee->status == JCAL_READY));
     if (hip_known && knee_known) {
@@ -286,11 +288,56 @@ jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out)
     }
     tell_status(self, &hip, &knee, fits, out);
     out->head.t_us = (hip.t_us > knee.t_us) ? hip.t_us : knee.t_us;
-    out->head.samples = self->samples;
-    out->head.overrun = self->hip.input.inbox.ring.overrun + self->knee.input.inbox.ring.overrun;
-    for (size_t i = 0u; i < (size_t)JCAL_REJECT_COUNT; ++i) {
-        out->head.rejected_by[i] = self->rejected_by[i];
-        out->head.rejected += self->rejected_by[i];
-    }
+    jcal_head_count(&out->head, self->samples, self->rejected_by);
+    out->head.overrun = self->overrun;
     return JCAL_OK;
+}
+
+/// Remembers whether the status is `ready`, so that it is left later than it was entered, whenever a joint was judged anew. Where both
+/// joints are, no tie has to be looked at for that.
+static void follow_status(jcal_chain_t *self)
+{
+    const jcal_center_verdict_t *const hip = &self->hip.work.verdict;
+    const jcal_center_verdict_t *const knee = &self->knee.work.verdict;
+    if ((hip->count == self->judged[0]) && (knee->count == self->judged[1])) {
+        return;
+    }
+    self->judged[0] = hip->count;
+    self->judged[1] = knee->count;
+    if ((hip->status == (uint8_t)JCAL_READY) && (knee->status == (uint8_t)JCAL_READY)) {
+        self->was_ready = true;
+    } else {
+        jcal_chain_result_t now;
+        (void)jcal_chain_get(self, &now);
+        self->was_ready = now.head.status == JCAL_READY;
+    }
+}
+
+jcal_status_t jcal_chain_step(jcal_chain_t *self)
+{
+    if (!is_prepared(self)) {
+        return JCAL_ERR_ARG;
+    }
+    const jcal_status_t hip = jcal_center_step(&self->hip);
+    const jcal_status_t knee = jcal_center_step(&self->knee);
+    follow_status(self);
+    return ((hip == JCAL_IDLE) && (knee == JCAL_IDLE)) ? JCAL_IDLE : JCAL_OK;
+}
+
+jcal_status_t jcal_chain_update(jcal_chain_t *self, const jcal_triple_t *triple,
+                                const jcal_triple_attitudes_t *attitudes)
+{
+    if (!is_prepared(self)) {
+        return JCAL_ERR_ARG;
+    }
+    const uint32_t hip = jcal_ring_waiting(&self->hip.input.inbox.ring);
+    const uint32_t knee = jcal_ring_waiting(&self->knee.input.inbox.ring);
+    for (uint32_t left = (hip > knee) ? hip : knee; left > 0u; --left) {
+        (void)jcal_chain_step(self); /* pushed without a step */
+    }
+    const jcal_status_t status = jcal_chain_push(self, triple, attitudes);
+    if (status >= JCAL_OK) {
+        (void)jcal_chain_step(self);
+    }
+    return status;
 }

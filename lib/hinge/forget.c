@@ -15,6 +15,8 @@
 
 /// A diagonal of which only this share is left after an elimination is rounding: 8 unknowns, a few operations each.
 #define ROUNDING (64.0f * FLT_EPSILON)
+/// Nothing at all is known below this: its reciprocal is finite.
+#define PIVOT_MIN 1e-20f
 
 /// What says how well the residuals are known, not what they say.
 static void fade_counts(jcal_hinge_refine_t *self, float share)
@@ -59,7 +61,7 @@ void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share)
 static void eliminate(jcal_hinge_refine_t *self, unsigned p, float keep, float least)
 {
     const float pivot = self->matrix[jcal_sym_at(p, p)];
-    const float give = (pivot > least) ? ((1.0f - keep) / pivot) : 0.0f;
+    const float give = (pivot > jcal_max(least, PIVOT_MIN)) ? ((1.0f - keep) / pivot) : 0.0f;
     float column[UNKNOWNS];
     for (unsigned i = 0u; i < UNKNOWNS; ++i) {
         column[i] = self->matrix[jcal_sym_at(i, p)];

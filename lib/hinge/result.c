@@ -2,6 +2,7 @@
 /// @file
 /// What the stream engine of the hinge tells its user.
 #include "hinge/judge.h"
+#include "joint/head.h"
 #include "joint/sign.h"
 #include "jointcal/hinge.h"
 #include "jointcal/vec3.h"
@@ -21,16 +22,8 @@ static void tell_verdict(const jcal_hinge_t *self, jcal_hinge_result_t *result)
     result->progress_axis1 = jcal_hinge_progress(verdict->bound1_rad, self->cfg.max_bound_rad);
     result->progress_axis2 = jcal_hinge_progress(verdict->bound2_rad, self->cfg.max_bound_rad);
     result->progress_sign = (self->cfg.sign_hint != JCAL_SIGN_UNKNOWN) ? 1.0f : verdict->sign_progress;
-    const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
-    if (complaint != JCAL_REASON_NONE) { /* a sensor that fails sends nothing that a judgement would follow */
-        result->head.status = JCAL_COLLECTING;
-        result->head.reason = complaint;
-        result->head.hint = JCAL_HINT_CHECK_SENSORS;
-        if (result->head.weak == JCAL_WEAK_NONE) { /* it was ready */
-            const bool first = verdict->bound1_rad >= verdict->bound2_rad;
-            result->head.weak = first ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
-        }
-    }
+    const bool first = verdict->bound1_rad >= verdict->bound2_rad;
+    jcal_head_complain(&result->head, jcal_gate_complaint(&self->gate), first ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2);
 }
 
 jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
@@ -48,12 +41,8 @@ jcal_status_t jcal_hinge_get(const jcal_hinge_t *self, jcal_hinge_result_t *out)
         result.axis2 = jcal_vec3_scale(self->refine.point.axis2.j, sign);
     }
     result.head.t_us = self->last_us;
-    result.head.samples = self->gate.samples;
+    jcal_head_count(&result.head, self->gate.samples, self->gate.rejected_by);
     result.head.overrun = self->inbox.ring.overrun;
-    for (unsigned i = 0u; i < (unsigned)JCAL_REJECT_COUNT; ++i) {
-        result.head.rejected_by[i] = self->gate.rejected_by[i];
-        result.head.rejected += self->gate.rejected_by[i];
-    }
     *out = result;
     return JCAL_OK;
 }

@@ -33,7 +33,6 @@
 
 /// Growth of the usual residual of the rates with them, squared: scale and misalignment of the gyroscopes.
 #define RATE_SHARE2 4e-4f
-
 /// Share of the accelerometers' assumed variance that changes within a second; the rest, biases say, is there all the time.
 #define WATCH_ACC_SHARE 0.3f
 

@@ -7,13 +7,14 @@
 #include "jointcal/head.h"
 
 /// What a gate complains of stands above what was judged: a sensor that fails sends nothing that a judgement would follow, so without
-/// this a calibration would stay `ready` for ever.
-static inline void jcal_head_complain(jcal_head_t *head, jcal_reason_t complaint)
+/// this a calibration would stay `ready` for ever. `weakest` is named if the judgement found nothing weak.
+static inline void jcal_head_complain(jcal_head_t *head, jcal_reason_t complaint, jcal_weak_t weakest)
 {
     if (complaint != JCAL_REASON_NONE) {
         head->status = JCAL_COLLECTING;
         head->reason = complaint;
         head->hint = JCAL_HINT_CHECK_SENSORS;
+        head->weak = (head->weak == JCAL_WEAK_NONE) ? weakest : head->weak;
     }
 }
 

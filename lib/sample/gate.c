@@ -247,10 +247,17 @@ jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *confi
     return cause;
 }
 
+void jcal_gate_refuse(jcal_gate_t *self, jcal_reject_t cause)
+{
+    self->samples += 1u;
+    self->rejected_by[cause] += 1u;
+    self->bad_share += BAD_STEP * (1.0f - self->bad_share);
+}
+
 jcal_reason_t jcal_gate_complaint(const jcal_gate_t *self)
 {
     if (!self->has_last) {
-        return JCAL_REASON_NONE;
+        return (self->bad_share > BAD_SHARE_MAX) ? JCAL_REASON_BAD_SAMPLES : JCAL_REASON_NONE;
     }
     if (acc_looks_wrong(&self->sensor1) || acc_looks_wrong(&self->sensor2)) {
         return JCAL_REASON_WRONG_UNITS_ACC;

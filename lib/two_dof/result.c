@@ -52,7 +52,8 @@ void jcal_two_dof_report(const jcal_two_dof_verdict_t *verdict, const jcal_two_d
 
 void jcal_two_dof_report_gate(const jcal_orientation_gate_t *gate, jcal_two_dof_result_t *out)
 {
-    jcal_head_complain(&out->head, jcal_orientation_gate_complaint(gate));
+    const bool first = out->uncertainty1_rad >= out->uncertainty2_rad;
+    jcal_head_complain(&out->head, jcal_orientation_gate_complaint(gate), first ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2);
     jcal_head_count(&out->head, gate->samples, gate->rejected_by);
 }
 

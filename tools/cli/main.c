@@ -47,6 +47,9 @@ static const command_t *find_command(const char *name)
 static error_t parse(int key, char *argument, struct argp_state *state)
 {
     choice_t *choice = state->input;
+    if (key == 'h') {
+        argp_state_help(state, stdout, ARGP_HELP_STD_HELP); /* ends the program */
+    }
     if (key == ARGP_KEY_ARG) {
         choice->command = find_command(argument);
         choice->index = state->next - 1;
@@ -62,7 +65,10 @@ static error_t parse(int key, char *argument, struct argp_state *state)
     return ARGP_ERR_UNKNOWN;
 }
 
+static const struct argp_option OPTIONS[] = {{"h", 'h', NULL, OPTION_HIDDEN, "", 0}, {NULL, 0, NULL, 0, NULL, 0}};
+
 static const struct argp PARSER = {
+    .options = OPTIONS,
     .parser = parse,
     .args_doc =
         "angles RECORDING.csv --joint KIND [OPTION...]\ncenter RECORDING.csv [OPTION...]\nchain RECORDING.csv [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]\n"

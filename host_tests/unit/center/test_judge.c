@@ -460,11 +460,51 @@ static void progress_is_the_share_of_the_way_to_the_bound(void)
     memset(&input, 0, sizeof input);
     work.verdict.bound1_m = 0.02f;
     work.verdict.bound2_m = 0.04f;
-    jcal_center_report(&config, &work, &input, false, &r);
+    jcal_center_report(&config, &work, &input, true, &r);
     TEST_ASSERT_EQUAL_FLOAT(0.5f, r.progress1);
     TEST_ASSERT_EQUAL_FLOAT(0.25f, r.progress2);
+    jcal_center_report(&config, &work, &input, false, &r);
     TEST_ASSERT_FALSE(r.has_center);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_vec3_norm(r.joint_to_sensor1_m));
+    TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, r.uncertainty1_m);
+    TEST_ASSERT_EQUAL_FLOAT(0.001f, r.progress1);
+}
+
+static void a_place_that_no_body_has_is_not_told_and_never_ready(void)
+{
+    static jcal_center_input_t input;
+    jcal_center_result_t r;
+    memset(&input, 0, sizeof input);
+    for (int sensor = 0; sensor < 2; ++sensor) {
+        for (int hinge = 0; hinge < 2; ++hinge) {
+            setUp();
+            config.hinge_axis1 = jcal_vec3(0.0f, 0.0f, (hinge == 1) ? 1.0f : 0.0f);
+            config.hinge_axis2 = jcal_vec3((hinge == 1) ? 1.0f : 0.0f, 0.0f, 0.0f);
+            jcal_center_place_t *const place = &work.sums.point.place;
+            jcal_vec3_t *const r_m = (sensor == 0) ? &place->r1 : &place->r2;
+            place->r1 = jcal_vec3(0.1f, 0.0f, (hinge == 1) ? 40.0f : 0.0f);
+            place->r2 = jcal_vec3((hinge == 1) ? 40.0f : 0.0f, 0.0f, -0.1f); /* far along the axis is the same joint */
+            work.verdict.status = (uint8_t)JCAL_READY;
+            work.verdict.reason = (uint8_t)JCAL_REASON_NONE;
+            r_m->y = 0.99f;
+            jcal_center_report(&config, &work, &input, true, &r);
+            TEST_ASSERT_TRUE(r.has_center);
+            TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
+            TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.99f, (sensor == 0) ? r.joint_to_sensor1_m.y : r.joint_to_sensor2_m.y);
+            const float far_m[3] = {1.01f, -90.0f, NAN};
+            for (int k = 0; k < 3; ++k) {
+                r_m->y = far_m[k];
+                jcal_center_report(&config, &work, &input, true, &r);
+                TEST_ASSERT_FALSE(r.has_center);
+                TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+                TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, r.head.reason);
+                TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_vec3_norm(r.joint_to_sensor1_m));
+                TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_vec3_norm(r.joint_to_sensor2_m));
+                TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, r.uncertainty1_m);
+                TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, r.uncertainty_weakest2_m);
+            }
+        }
+    }
 }
 
 int main(void)
@@ -485,5 +525,6 @@ int main(void)
     RUN_TEST(what_does_not_last_may_hide_an_error_too);
     RUN_TEST(noise_alone_is_no_misfit);
     RUN_TEST(progress_is_the_share_of_the_way_to_the_bound);
+    RUN_TEST(a_place_that_no_body_has_is_not_told_and_never_ready);
     return UNITY_END();
 }

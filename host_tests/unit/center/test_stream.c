@@ -148,15 +148,6 @@ static void knocks_hardly_matter_to_absolute_differences(void)
     TEST_ASSERT_TRUE(error[JCAL_CENTER_SA] < 0.5 * error[JCAL_CENTER_SS]);
 }
 
-/* The orientations of a sample; those of sensor 2 from an earth frame with another heading. */
-static jcal_attitudes_t attitudes_of(const center_motion_t *m, uint32_t k, double heading)
-{
-    const double t_s = (double)k / m->rate_hz;
-    const pose_quat_t other = pose_mul(pose_turn(-heading, 0.0, 0.0, 1.0), center_orientation(m, 2, t_s));
-    const jcal_attitudes_t out = {pose_single(center_orientation(m, 1, t_s)), pose_single(other)};
-    return out;
-}
-
 static void orientations_give_the_centre_and_the_heading_offset(void)
 {
     const double headings[] = {0.0, 1.0, -2.5, 3.1};
@@ -166,7 +157,7 @@ static void orientations_give_the_centre_and_the_heading_offset(void)
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
         for (uint32_t k = 0; k < (uint32_t)(30.0 * m.rate_hz); ++k) {
             const jcal_pair_t pair = center_sample(&m, k);
-            const jcal_attitudes_t attitudes = attitudes_of(&m, k, headings[i]);
+            const jcal_attitudes_t attitudes = center_attitudes(&m, k, headings[i]);
             TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_push_oriented(&engine, &pair, &attitudes));
             (void)jcal_center_step(&engine);
         }
@@ -183,7 +174,7 @@ static void orientations_are_needed_by_their_method_and_must_be_of_length_one(vo
 {
     const center_motion_t m = center_lively(1);
     const jcal_pair_t pair = center_sample(&m, 1);
-    jcal_attitudes_t attitudes = attitudes_of(&m, 1, 0.0);
+    jcal_attitudes_t attitudes = center_attitudes(&m, 1, 0.0);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_push_oriented(&engine, &pair, &attitudes)); /* not needed, welcome */
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_step(&engine));
     config.method = JCAL_CENTER_LS;
@@ -196,7 +187,7 @@ static void orientations_are_needed_by_their_method_and_must_be_of_length_one(vo
     attitudes.q2.w = NAN;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_center_push_oriented(&engine, &pair, &attitudes));
     TEST_ASSERT_EQUAL_UINT32(2u, result_of(&engine).head.rejected);
-    attitudes = attitudes_of(&m, 1, 0.0);
+    attitudes = center_attitudes(&m, 1, 0.0);
     attitudes.q1.x -= 2.0f;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_center_push_oriented(&engine, &pair, &attitudes));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_push_oriented(NULL, &pair, &attitudes));
@@ -667,7 +658,7 @@ static void memory_has_a_limit_and_a_shorter_one_with_headings(void)
         bool halved = false;
         for (uint32_t k = 0; (k < 320u) && !halved; ++k) {
             const jcal_pair_t pair = center_sample(&m, k);
-            const jcal_attitudes_t attitudes = attitudes_of(&m, k, 0.5);
+            const jcal_attitudes_t attitudes = center_attitudes(&m, k, 0.5);
             const float before_s = engine.work.sums.time_s;
             TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_push_oriented(&engine, &pair, &attitudes));
             (void)jcal_center_step(&engine);
@@ -746,6 +737,48 @@ static void rejected_samples_are_counted_and_break_the_chain(void)
     assert_inside(&m);
 }
 
+static void a_source_that_fails_is_not_ready_for_long(void)
+{
+    const center_motion_t m = center_lively(1);
+    const uint32_t last = (uint32_t)(30.0 * m.rate_hz), more = (uint32_t)(2.0 * m.rate_hz);
+    config.method = JCAL_CENTER_LS;
+    for (int fault = 0; fault < FAULTS; ++fault) {
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
+        for (uint32_t k = 0; k <= (last + more); ++k) {
+            jcal_pair_t pair = center_sample(&m, k);
+            jcal_attitudes_t attitudes = center_attitudes(&m, k, 0.5);
+            if (k > last) {
+                center_failed(fault, last, &m, &pair, &attitudes);
+            }
+            (void)jcal_center_push_oriented(&engine, &pair, &attitudes);
+            (void)jcal_center_step(&engine);
+            if (k == last) {
+                TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
+            }
+        }
+        const jcal_center_result_t r = result_of(&engine);
+        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, r.head.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
+    }
+}
+
+static void what_was_never_prepared_does_nothing(void)
+{
+    const center_motion_t m = center_lively(0);
+    const jcal_pair_t pair = center_sample(&m, 0);
+    const jcal_attitudes_t attitudes = center_attitudes(&m, 0, 0.0);
+    memset(&engine, 0, sizeof engine);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_push(&engine, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_push_oriented(&engine, &pair, &attitudes));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_update(&engine, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_step(&engine));
+    TEST_ASSERT_FALSE(result_of(&engine).has_center);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_CONFIG, jcal_center_reset(&engine));
+    TEST_ASSERT_EQUAL_STRING("config", jcal_center_config_check(NULL));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -778,5 +811,7 @@ int main(void)
     RUN_TEST(memory_has_a_limit_and_a_shorter_one_with_headings);
     RUN_TEST(sums_begin_anew_where_the_data_want_them_but_for_what_is_ready);
     RUN_TEST(rejected_samples_are_counted_and_break_the_chain);
+    RUN_TEST(a_source_that_fails_is_not_ready_for_long);
+    RUN_TEST(what_was_never_prepared_does_nothing);
     return UNITY_END();
 }

@@ -388,6 +388,53 @@ static void wrong_arguments_are_refused(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_window_push(&engine, &pair));
 }
 
+static void a_source_that_fails_is_not_ready_for_long(void)
+{
+    const center_motion_t m = center_lively(1);
+    const uint32_t last = (uint32_t)(12.0 * m.rate_hz), more = (uint32_t)(2.0 * m.rate_hz);
+    config.center.method = JCAL_CENTER_LS;
+    config.center.max_bound_m = 0.02f;
+    for (int fault = 0; fault < FAULTS; ++fault) {
+        begin();
+        for (uint32_t k = 0; k <= (last + more); ++k) {
+            jcal_pair_t pair = center_sample(&m, k);
+            jcal_attitudes_t attitudes = center_attitudes(&m, k, 0.5);
+            if (k > last) {
+                center_failed(fault, last, &m, &pair, &attitudes);
+            }
+            (void)jcal_center_window_push_oriented(&engine, &pair, &attitudes);
+            (void)jcal_center_window_step(&engine);
+            if (k == last) {
+                TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
+            }
+        }
+        const jcal_center_result_t r = result_of(&engine);
+        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, r.head.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
+    }
+}
+
+static void what_was_never_prepared_does_nothing(void)
+{
+    const center_motion_t m = center_lively(0);
+    const jcal_pair_t pair = center_sample(&m, 0);
+    const jcal_attitudes_t attitudes = center_attitudes(&m, 0, 0.0);
+    memset(&engine, 0, sizeof engine);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_window_push(&engine, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_window_push_oriented(&engine, &pair, &attitudes));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_window_update(&engine, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_window_step(&engine));
+    TEST_ASSERT_FALSE(result_of(&engine).has_center);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_window_reset(&engine));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_window_attach(&engine, storage, sizeof storage));
+    engine.storage = storage; /* but no room in it */
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_center_window_step(&engine));
+    TEST_ASSERT_EQUAL_UINT(0, jcal_center_window_storage_bytes(NULL));
+    TEST_ASSERT_EQUAL_STRING("config", jcal_center_window_config_check(NULL));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -407,5 +454,7 @@ int main(void)
     RUN_TEST(the_heading_is_the_best_one_at_the_estimate);
     RUN_TEST(a_copy_goes_on_alike);
     RUN_TEST(wrong_arguments_are_refused);
+    RUN_TEST(a_source_that_fails_is_not_ready_for_long);
+    RUN_TEST(what_was_never_prepared_does_nothing);
     return UNITY_END();
 }

@@ -464,6 +464,7 @@ static void a_length_that_turns_the_thigh_is_met(void)
 /* A joint that says so. */
 static void say(jcal_center_t *joint, jcal_calibration_t status, jcal_reason_t reason, float bound_m)
 {
+    joint->has_point = true;
     joint->work.verdict.status = (uint8_t)status;
     joint->work.verdict.reason = (uint8_t)reason;
     joint->work.verdict.bound1_m = bound_m;
@@ -640,6 +641,101 @@ static void reset_forgets_and_a_full_inbox_says_so(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_FULL, status);
 }
 
+static void a_push_that_finds_no_room_leaves_no_trace(void)
+{
+    const chain_motion_t m = chain_lively(0);
+    for (int broken = 0; broken < 2;
+         ++broken) { /* the sensor of one joint only, so that the other one's inbox is full first */
+        setUp();
+        jcal_triple_t triple = chain_sample(&m, 0);
+        for (uint32_t k = 0; k < 2u * JCAL_INBOX_CAPACITY; ++k) {
+            triple = chain_sample(&m, k);
+            if (k == 2u) {
+                *((broken == 0) ? &triple.imu1.gyr_rad_s.x : &triple.imu3.gyr_rad_s.x) = NAN;
+            }
+            const jcal_chain_t before = engine;
+            const jcal_status_t status = jcal_chain_push(&engine, &triple, NULL);
+            TEST_ASSERT_EQUAL_INT((k == 2u) ? JCAL_REJECTED : ((k < JCAL_INBOX_CAPACITY) ? JCAL_OK : JCAL_ERR_FULL),
+                                  status);
+            if (status == JCAL_ERR_FULL) {
+                TEST_ASSERT_EQUAL_UINT32((k - JCAL_INBOX_CAPACITY) + 1u, result().head.overrun);
+                TEST_ASSERT_EQUAL_MEMORY(&before.hip, &engine.hip, sizeof before.hip);
+                TEST_ASSERT_EQUAL_MEMORY(&before.knee, &engine.knee, sizeof before.knee);
+            }
+        }
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chain_step(&engine));
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chain_push(&engine, &triple, NULL)); /* the same once more */
+    }
+}
+
+static void update_is_push_and_step_and_makes_room(void)
+{
+    static jcal_chain_t other;
+    const chain_motion_t m = chain_lively(0);
+    other = engine;
+    for (uint32_t k = 0; k < 300u; ++k) {
+        const jcal_triple_t triple = chain_sample(&m, k);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chain_update(&engine, &triple, NULL));
+        (void)jcal_chain_push(&other, &triple, NULL);
+        (void)jcal_chain_step(&other);
+    }
+    const jcal_chain_result_t a = result();
+    jcal_chain_result_t b;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chain_get(&other, &b));
+    TEST_ASSERT_EQUAL_MEMORY(&a, &b, sizeof a);
+    for (uint32_t k = 300u; k < 310u; ++k) {
+        const jcal_triple_t triple = chain_sample(&m, k);
+        (void)jcal_chain_push(&engine, &triple, NULL); /* until it is full */
+    }
+    for (uint32_t k = 310u; k < 330u; ++k) {
+        const jcal_triple_t triple = chain_sample(&m, k);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chain_update(&engine, &triple, NULL));
+    }
+    jcal_triple_t bad = chain_sample(&m, 330u);
+    bad.imu2.acc_m_s2.x = NAN;
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_chain_update(&engine, &bad, NULL));
+}
+
+/* What ties both has made the knee's bound small enough; both joints are judged once more. */
+static void judge_knee(float bound_m)
+{
+    say(&engine.knee, JCAL_COLLECTING, JCAL_REASON_UNCERTAIN, bound_m);
+    engine.knee.work.verdict.count = (uint8_t)(engine.knee.work.verdict.count + 1u);
+    (void)jcal_chain_step(&engine);
+}
+
+static void ready_by_what_ties_both_is_left_later_than_it_is_entered(void)
+{
+    const float limit_m = config.center.max_bound_m;
+    say(&engine.hip, JCAL_READY, JCAL_REASON_NONE, 0.5f * limit_m);
+    judge_knee(1.1f * limit_m);
+    assert_said(JCAL_COLLECTING, JCAL_WEAK_CENTER2, JCAL_REASON_UNCERTAIN);
+    judge_knee(0.99f * limit_m);
+    assert_said(JCAL_READY, JCAL_WEAK_NONE, JCAL_REASON_NONE);
+    judge_knee(1.1f * limit_m);
+    assert_said(JCAL_READY, JCAL_WEAK_NONE, JCAL_REASON_NONE);
+    judge_knee(1.1f * limit_m);
+    assert_said(JCAL_READY, JCAL_WEAK_NONE, JCAL_REASON_NONE);
+    judge_knee(1.25f * limit_m);
+    assert_said(JCAL_COLLECTING, JCAL_WEAK_CENTER2, JCAL_REASON_UNCERTAIN);
+    judge_knee(1.1f * limit_m);
+    assert_said(JCAL_COLLECTING, JCAL_WEAK_CENTER2, JCAL_REASON_UNCERTAIN);
+}
+
+static void what_was_never_prepared_does_nothing(void)
+{
+    const chain_motion_t m = chain_lively(0);
+    const jcal_triple_t triple = chain_sample(&m, 0);
+    memset(&engine, 0, sizeof engine);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chain_push(&engine, &triple, NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chain_step(&engine));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chain_update(&engine, &triple, NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_CONFIG, jcal_chain_reset(&engine));
+    TEST_ASSERT_FALSE(result().has_places);
+    TEST_ASSERT_EQUAL_STRING("config", jcal_chain_config_check(NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chain_update(NULL, &triple, NULL));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -666,5 +762,9 @@ int main(void)
     RUN_TEST(a_joint_without_a_sample_does_not_hold_up_the_other);
     RUN_TEST(null_is_refused);
     RUN_TEST(reset_forgets_and_a_full_inbox_says_so);
+    RUN_TEST(a_push_that_finds_no_room_leaves_no_trace);
+    RUN_TEST(update_is_push_and_step_and_makes_room);
+    RUN_TEST(ready_by_what_ties_both_is_left_later_than_it_is_entered);
+    RUN_TEST(what_was_never_prepared_does_nothing);
     return UNITY_END();
 }

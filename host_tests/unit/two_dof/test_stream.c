@@ -492,6 +492,7 @@ static void a_source_that_fails_is_not_ready_for_long(void)
         TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
         TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, r.head.reason);
         TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
         const uint32_t again = last + ((fault == FAULT_GAPS) ? (80u * RATE_HZ) : (2u * RATE_HZ));
         feed(&engine, &sim, again + 1u, again + (8u * RATE_HZ)); /* the axes were not forgotten */
         TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);

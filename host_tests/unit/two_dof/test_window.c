@@ -229,6 +229,7 @@ static void a_source_that_fails_is_not_ready_for_long(void)
         TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
         TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, r.head.reason);
         TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
+        TEST_ASSERT_NOT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
     }
 }
 

@@ -271,6 +271,7 @@ static const command_line_t LINE = {
                [COMMON_MAX_BOUND] =
                    {.help =
                         "Ready when the calibration is known to within DEG degrees with 95 % confidence (default 3)"},
+               [COMMON_SORT] = {.help = COMMON_SORT_HELP},
                [COMMON_SIGN_HINT] = {.help = "As of 'jointcal hinge': same or opposite"}},
     .bound_unit = BOUND_IN_DEG,
     .own = OPTIONS,
@@ -360,7 +361,7 @@ int angles_command(int argc, char **argv)
     common_parse(&LINE, argc, argv, &common, &session->options);
     exit_status_t status = prepare(session);
     if (status == EXIT_READY) {
-        status = reading_open(&session->reading, common.recording);
+        status = reading_open(&session->reading, common.recording, common.sort);
         status = (status == EXIT_READY) ? run_recording(session) : status;
         orientations_close(&session->orientations);
         reading_close(&session->reading);

@@ -123,7 +123,7 @@ static const command_line_t LINE = {
         "Finds where both sensors of a recording sit relative to the centre of the joint between them, from arbitrary motion.\v"
         "The recording is as for 'jointcal hinge'. Results are the vectors from the joint's centre to each sensor, in that sensor's "
         "frame. Orientations for --method ls are taken or computed as for 'jointcal two-dof'.\n"
-        "\n" COMMON_EXIT_HELP,
+        "\n" COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] =
              {.help =
@@ -139,7 +139,8 @@ static const command_line_t LINE = {
              {.help =
                   "Ready when the centre is known to within M metres from both sensors with 95 % confidence (default 0.01)"},
          [COMMON_SIGN_HINT] = {.refusal = "--sign-hint is for a hinge: a joint centre has no sign"},
-         [COMMON_JSON] = {.help = COMMON_JSON_HELP}},
+         [COMMON_JSON] = {.help = COMMON_JSON_HELP},
+         [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
     .n_max_least = 50,
     .n_max_most = 20000,
     .bound_unit = BOUND_IN_M,
@@ -307,6 +308,7 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 /* ---- The command ---- */
 
 static const calibrate_joint_t CENTER = {.words = &WORDS,
+                                         .uses_readings = true,
                                          .push = push,
                                          .reset = reset,
                                          .get = get,

@@ -77,7 +77,7 @@ static const command_line_t LINE = {
         "The recording is as for 'jointcal hinge', with gyr3_x ... acc3_z besides. Results are the vectors from each joint's centre to "
         "the sensors beside it, in the sensor's frame, and the distance of both centres. Orientations for --method ls are taken "
         "from the columns q1_w ... q3_z or computed.\n"
-        "\n" COMMON_EXIT_HELP,
+        "\n" COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] = {.help = "How to compute: stream (default). The chain has no other engine",
                             .refusal = "--engine window: the chain has the stream engine only"},
@@ -89,7 +89,8 @@ static const command_line_t LINE = {
              {.help = "Ready when both centres are known to within M metres from all sensors with 95 % confidence "
                       "(default 0.01)"},
          [COMMON_SIGN_HINT] = {.refusal = "--sign-hint is for a hinge: joint centres have no sign"},
-         [COMMON_JSON] = {.help = COMMON_JSON_HELP}},
+         [COMMON_JSON] = {.help = COMMON_JSON_HELP},
+         [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
     .bound_unit = BOUND_IN_M,
     .own = OPTIONS,
     .parse = parse,
@@ -199,6 +200,7 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 
 static const calibrate_joint_t CHAIN = {.words = &WORDS,
                                         .third = true,
+                                        .uses_readings = true,
                                         .push = push,
                                         .reset = reset,
                                         .get = get,

@@ -37,7 +37,7 @@ static const command_line_t LINE = {
            "The recording is CSV with one header line; the columns t_s (s), gyr1_x, gyr1_y, gyr1_z, gyr2_x ... (rad/s) "
            "and acc1_x ... acc2_z (m/s^2) may stand in any order among others. Sensor 1 sits on the proximal segment, "
            "sensor 2 on the distal one. - reads standard input.\n"
-           "\n" COMMON_EXIT_HELP,
+           "\n" COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] =
              {.help = "How to compute. stream (default): sums of moments, remembers everything, constant memory. "
@@ -50,7 +50,8 @@ static const command_line_t LINE = {
          [COMMON_MAX_BOUND] =
              {.help = "Ready when both axes are known to within DEG degrees with 95 % confidence (default 3)"},
          [COMMON_SIGN_HINT] = {.help = COMMON_SIGN_HELP},
-         [COMMON_JSON] = {.help = COMMON_JSON_HELP}},
+         [COMMON_JSON] = {.help = COMMON_JSON_HELP},
+         [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
     .n_max_least = 20,
     .n_max_most = 10000,
     .bound_unit = BOUND_IN_DEG,
@@ -166,6 +167,7 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 /* ---- The command ---- */
 
 static const calibrate_joint_t HINGE = {.words = &WORDS,
+                                        .uses_readings = true,
                                         .push = push,
                                         .get = get,
                                         .bounds = bounds,

@@ -89,6 +89,7 @@ static const command_line_t LINE = {
     .offers = {[COMMON_EVERY] = {.help = COMMON_EVERY_HELP},
                [COMMON_MAX_BOUND] =
                    {.help = "Ready when both axes are known to within DEG degrees with 95 % confidence (default 3)"},
+               [COMMON_SORT] = {.help = COMMON_SORT_HELP},
                [COMMON_SIGN_HINT] = {.help = COMMON_SIGN_HELP},
                [COMMON_JSON] = {.help = "Write JSON Lines, which is what this subcommand does anyway"}},
     .bound_unit = BOUND_IN_DEG,
@@ -115,13 +116,15 @@ typedef struct {
 static void emit(void *context, const char *event, const message_estimate_t *estimate)
 {
     session_t *session = context;
-    const report_t report = {.head = estimate->result.head,
-                             .clock.has_time = estimate->now_us != MESSAGE_TIME_UNKNOWN,
-                             .clock.t_us = (int64_t)(estimate->now_us - ORIGIN_US + (uint64_t)session->start_us)};
+    report_t report = {.head = estimate->result.head,
+                       .clock.has_time = estimate->now_us != MESSAGE_TIME_UNKNOWN,
+                       .clock.t_us = (int64_t)(estimate->now_us - ORIGIN_US + (uint64_t)session->start_us)};
+    check_findings(&session->reading.recording.check, &report.findings);
+    report_apply_findings(&report);
     progress_clear(&session->reading.progress);
     json_t json = report_json_begin(stdout, event, &report);
     hinge_write_keys(&json, &estimate->result);
-    report_json_end(&json, &report.head);
+    report_json_end(&json, &report);
     if (fflush(stdout) != 0 || ferror(stdout) != 0) {
         session->output_failed = true;
     }
@@ -130,8 +133,7 @@ static void emit(void *context, const char *event, const message_estimate_t *est
 static exit_status_t output_trouble(session_t *session)
 {
     progress_clear(&session->reading.progress);
-    complain("standard output", 0, 0, "%s", strerror(errno));
-    return EXIT_TROUBLE;
+    return complain_output("standard output");
 }
 
 /* Until the row is due, if the recording is played at its own pace. */
@@ -225,7 +227,7 @@ int stream_command(int argc, char **argv)
     }
     session->options = (stream_options_t){.hub = {.baud = 115200, .timeout_us = 5000000}, .speed = 1.0f};
     common_parse(&LINE, argc, argv, &session->common, &session->options);
-    exit_status_t status = reading_open(&session->reading, session->common.recording);
+    exit_status_t status = reading_open(&session->reading, session->common.recording, session->common.sort);
     status = (status == EXIT_READY) ? run_recording(session) : status;
     reading_close(&session->reading);
     free(session);

@@ -103,7 +103,7 @@ static const command_line_t LINE = {
         "each with a heading of its own); else they are computed from the rates and specific forces.\n"
         "\n"
         "The heading offset turns vectors from the earth frame of sensor 2 to that of sensor 1, about z.\n"
-        "\n" COMMON_EXIT_HELP,
+        "\n" COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] =
              {.help =
@@ -120,7 +120,8 @@ static const command_line_t LINE = {
                   "Ready when both axes and the heading are known to within DEG degrees with 95 % confidence (default 3)"},
          [COMMON_SIGN_HINT] =
              {.refusal = "--sign-hint is for a hinge: each axis of a joint with two axes has a sign of its own"},
-         [COMMON_JSON] = {.help = COMMON_JSON_HELP}},
+         [COMMON_JSON] = {.help = COMMON_JSON_HELP},
+         [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
     .n_max_least = 20,
     .n_max_most = 10000,
     .bound_unit = BOUND_IN_DEG,

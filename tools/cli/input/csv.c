@@ -2,6 +2,8 @@
 /* Rows and cells of comma-separated text. */
 #include "input/csv.h"
 
+#include "input/file_kind.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -243,8 +245,13 @@ void csv_open(csv_t *csv, csv_read_t *read, void *context)
     csv->column = 1;
     static const char mark[3] = {'\xEF', '\xBB', '\xBF'};
     /* A pipe may hand over single bytes. */
-    while (csv->chunk_size < sizeof mark && !csv->ended) {
+    while (csv->chunk_size < FILE_KIND_BYTES && !csv->ended) {
         fill(csv);
+    }
+    const char *kind = file_kind(csv->chunk, csv->chunk_size);
+    if (kind != NULL) {
+        fail(csv, kind, 0, 0);
+        return;
     }
     if (csv->chunk_size >= sizeof mark && memcmp(csv->chunk, mark, sizeof mark) == 0) {
         csv->chunk_at = sizeof mark;
@@ -254,6 +261,9 @@ void csv_open(csv_t *csv, csv_read_t *read, void *context)
 
 csv_event_t csv_next(csv_t *csv)
 {
+    if (csv->error != NULL) {
+        return (csv->error == FAILED) ? CSV_FAILED : CSV_BAD;
+    }
     skip_blank_lines(csv);
     if (peek(csv) == END_OF_TEXT) {
         return (csv->error == NULL) ? CSV_END : CSV_FAILED;

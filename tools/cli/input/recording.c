@@ -2,11 +2,14 @@
 /* A recording of two or three IMUs as CSV. */
 #include "input/recording.h"
 
+#include "input/header_help.h"
 #include "input/number.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define ALL_COLUMNS RECORDING_ALL_COLUMNS
@@ -78,11 +81,13 @@ static recording_event_t check_missing(recording_t *recording, size_t first_colu
     if (count == 0) {
         return RECORDING_ROW;
     }
-    const csv_cell_t *first = &recording->csv.cells[0];
-    /* The usual reason for a header of one cell. */
-    const bool other_separator = recording->header_cells == 1 && strpbrk(first->text, ";\t|") != NULL;
-    return bad(recording, first->line, 0, "missing column%s %s%s", (count == 1) ? "" : "s", names,
-               other_separator ? " (cells must be separated by commas)" : "");
+    const uint64_t line = recording->csv.cells[0].line;
+    const header_names_t ours = {COLUMN_NAMES, ALL_COLUMNS, recording->found, end};
+    char help[HEADER_HELP_MAX];
+    if (header_help(&recording->csv, &ours, help)) {
+        return bad(recording, line, 0, "%s", help);
+    }
+    return bad(recording, line, 0, "missing column%s %s%s", (count == 1) ? "" : "s", names, help);
 }
 
 static bool all_found(const recording_t *recording, size_t first, size_t end)
@@ -105,6 +110,7 @@ static recording_event_t read_header(recording_t *recording)
     }
     bool *const found = recording->found;
     recording->header_cells = recording->csv.cell_count;
+    recording->header_line = recording->csv.cells[0].line;
     for (size_t k = 0; k < recording->header_cells; k++) {
         const csv_cell_t *cell = &recording->csv.cells[k];
         const size_t column = column_named(cell->text);
@@ -139,11 +145,25 @@ static recording_event_t check_length(recording_t *recording)
     }
     for (size_t k = recording->header_cells; k < csv->cell_count; k++) {
         if (csv->cells[k].text[0] != '\0') {
+            const bool decimals = csv->cell_count + 1 >= 2 * recording->header_cells;
             return bad(recording, csv->cells[k].line, csv->cells[k].column,
-                       "long line: %zu cells where the header has %zu", csv->cell_count, recording->header_cells);
+                       "long line: %zu cells where the header has %zu%s", csv->cell_count, recording->header_cells,
+                       decimals ? ": are these decimal commas? Write points" : "");
         }
     }
     return RECORDING_ROW;
+}
+
+/* No cell of our columns holds a number. */
+static bool all_text(const recording_t *recording)
+{
+    for (size_t k = 0; k < RECORDING_COLUMNS; k++) {
+        float value = 0.0f;
+        if (number_to_float(recording->csv.cells[recording->index[k]].text, &value) == NUMBER_FINITE) {
+            return false;
+        }
+    }
+    return true;
 }
 
 static recording_event_t not_a_number(recording_t *recording, size_t column)
@@ -153,8 +173,11 @@ static recording_event_t not_a_number(recording_t *recording, size_t column)
         return bad(recording, cell->line, 0, "a second header line");
     }
     char buffer[32];
-    return bad(recording, cell->line, cell->column, "%s: '%s' is not a number", COLUMN_NAMES[column],
-               shown(cell->text, buffer));
+    if (recording->csv.cells[0].line <= recording->header_line + 1 && all_text(recording)) {
+        return bad(recording, cell->line, 0, "a line of units or of names below the header: take it out");
+    }
+    return bad(recording, cell->line, cell->column, "%s: '%s' is not a number%s", COLUMN_NAMES[column],
+               shown(cell->text, buffer), number_help(cell->text, column == 0));
 }
 
 recording_event_t recording_open(recording_t *recording, csv_read_t *read, void *context)
@@ -223,7 +246,17 @@ static bool is_wanted(const recording_t *recording, size_t column)
     return recording->want_third && (column < FIRST_THIRD_ORIENTATION || recording->want_orientations);
 }
 
-recording_event_t recording_next(recording_t *recording, recording_row_t *row)
+/* Shows the row to those who judge the recording as a whole. */
+static void watch(recording_t *recording, const recording_row_t *row)
+{
+    const check_row_t shown_row = {.t_s = row->t_s,
+                                   .has_time = row->has_time,
+                                   .t_us = row->t_us,
+                                   .imu = {&row->imu1, &row->imu2, recording->want_third ? &row->imu3 : NULL}};
+    check_push(&recording->check, &shown_row);
+}
+
+static recording_event_t read_row(recording_t *recording, recording_row_t *row)
 {
     const csv_event_t event = csv_next(&recording->csv);
     if (event == CSV_END) {
@@ -242,6 +275,9 @@ recording_event_t recording_next(recording_t *recording, recording_row_t *row)
         return not_a_number(recording, 0);
     }
     row->has_time = time == NUMBER_FINITE;
+    /* A time in another unit may be too large for us and still tell what unit it is in. */
+    const char *text = cells[recording->index[0]].text;
+    row->t_s = (text[0] == '\0') ? (double)NAN : strtod(text, NULL);
     float values[ALL_COLUMNS] = {0.0f};
     for (size_t k = 1; k < ALL_COLUMNS; k++) {
         if (is_wanted(recording, k) &&
@@ -259,7 +295,83 @@ recording_event_t recording_next(recording_t *recording, recording_row_t *row)
     return RECORDING_ROW;
 }
 
+void recording_want_sorted(recording_t *recording)
+{
+    recording->want_sorted = true;
+}
+
+static bool keep(recording_t *recording, const recording_row_t *row)
+{
+    if (recording->kept_count == recording->kept_capacity) {
+        const size_t capacity = (recording->kept_capacity == 0) ? 1024 : 2 * recording->kept_capacity;
+        recording_kept_t *kept = realloc(recording->kept, capacity * sizeof *kept);
+        if (kept == NULL) {
+            return false;
+        }
+        recording->kept = kept;
+        recording->kept_capacity = capacity;
+    }
+    recording->kept[recording->kept_count] = (recording_kept_t){*row, recording->kept_count};
+    recording->kept_count++;
+    return true;
+}
+
+/* By time, rows of one time as they came, rows without one at the end. */
+static int compare(const void *a, const void *b)
+{
+    const recording_kept_t *x = a;
+    const recording_kept_t *y = b;
+    const bool timed = x->row.has_time && y->row.has_time;
+    if (timed && x->row.t_us != y->row.t_us) {
+        return (x->row.t_us > y->row.t_us) ? 1 : -1;
+    }
+    if (!timed && x->row.has_time != y->row.has_time) {
+        return x->row.has_time ? -1 : 1;
+    }
+    return (x->number > y->number) - (x->number < y->number);
+}
+
+/* Reads all rows and sorts them. */
+static void keep_all(recording_t *recording)
+{
+    recording_row_t row;
+    recording_event_t event = read_row(recording, &row);
+    while (event == RECORDING_ROW) {
+        event = keep(recording, &row) ? read_row(recording, &row) : RECORDING_FAILED;
+    }
+    recording->kept_event = event;
+    if (recording->kept_count > 0) {
+        qsort(recording->kept, recording->kept_count, sizeof *recording->kept, compare);
+    }
+}
+
+static recording_event_t next_row(recording_t *recording, recording_row_t *row)
+{
+    if (!recording->want_sorted) {
+        return read_row(recording, row);
+    }
+    if (recording->kept_at == 0 && recording->kept_event == RECORDING_ROW) {
+        keep_all(recording);
+    }
+    if (recording->kept_event != RECORDING_END || recording->kept_at == recording->kept_count) {
+        return recording->kept_event;
+    }
+    *row = recording->kept[recording->kept_at++].row;
+    return RECORDING_ROW;
+}
+
+recording_event_t recording_next(recording_t *recording, recording_row_t *row)
+{
+    const recording_event_t event = next_row(recording, row);
+    if (event == RECORDING_ROW) {
+        watch(recording, row);
+    }
+    return event;
+}
+
 void recording_close(recording_t *recording)
 {
     csv_close(&recording->csv);
+    free(recording->kept);
+    recording->kept = NULL;
 }

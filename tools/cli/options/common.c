@@ -12,8 +12,9 @@
 /* Most options of a command, shared ones and the end of the table included. */
 #define OPTIONS_MAX 32
 
-static const char *const NAMES[COMMON_COUNT] = {"engine", "n-max", "window", "every", "max-bound", "sign-hint", "json"};
-static const char *const ARGUMENTS[COMMON_COUNT] = {"NAME", "N", "S", "S", "DEG", "SIGN", NULL};
+static const char *const NAMES[COMMON_COUNT] = {"engine",    "n-max",     "window", "every",
+                                                "max-bound", "sign-hint", "json",   "sort"};
+static const char *const ARGUMENTS[COMMON_COUNT] = {"NAME", "N", "S", "S", "DEG", "SIGN", NULL, NULL};
 
 /* What argp hands to the parser. */
 typedef struct {
@@ -65,9 +66,12 @@ static void take(struct argp_state *state, const parse_t *parse, common_option_t
                                 : JCAL_SIGN_OPPOSITE;
         return;
     case COMMON_JSON:
+        common->json = true;
+        return;
+    case COMMON_SORT:
     case COMMON_COUNT:
     default:
-        common->json = true;
+        common->sort = true;
     }
 }
 
@@ -84,6 +88,9 @@ static error_t parse_option(int key, char *argument, struct argp_state *state)
     if (key == ARGP_KEY_END) {
         settle(state, parse);
         return 0;
+    }
+    if (key == 'h') {
+        argp_state_help(state, stdout, ARGP_HELP_STD_HELP); /* ends the program */
     }
     if (key < KEY_COMMON || key >= KEY_COMMON + (int)COMMON_COUNT) {
         return (parse->line->parse != NULL) ? parse->line->parse(key, argument, state, parse->own) : ARGP_ERR_UNKNOWN;
@@ -115,6 +122,7 @@ static void list_options(const command_line_t *line, struct argp_option table[st
                                                   .doc = (offer->help == NULL) ? "" : offer->help};
         }
     }
+    table[count++] = (struct argp_option){.name = "h", .key = 'h', .flags = OPTION_HIDDEN, .doc = ""};
     memset(&table[count], 0, sizeof table[count]);
 }
 

@@ -22,6 +22,7 @@
 typedef struct {
     const char *recording;  ///< File name, "-" for standard input.
     bool json;
+    bool sort;         ///< Rows are to be put in the order of their times first.
     int64_t every_us;  ///< 0 if not asked for.
     jcal_engine_t engine;
     uint16_t n_max;   ///< 0 if not given.
@@ -39,6 +40,7 @@ typedef enum {
     COMMON_MAX_BOUND,
     COMMON_SIGN_HINT,
     COMMON_JSON,
+    COMMON_SORT,
     COMMON_COUNT
 } common_option_t;
 
@@ -50,12 +52,25 @@ typedef struct {
 
 /// Texts that are the same for all who have the option.
 #define COMMON_EVERY_HELP "Report an estimate every S seconds of recording time"
+#define COMMON_SORT_HELP "Put rows in the order of t_s first; all of them must fit into memory"
 #define COMMON_JSON_HELP "Write JSON Lines instead of text"
 #define COMMON_SIGN_HELP                                                                                               \
     "What is known about the sign pairing. same: the largest components of both axes have the same sign; opposite: they have not"
 #define COMMON_EXIT_HELP                                                                                               \
     "Exit status: 0 ready at the end; 3 read to the end but not ready; 2 the command line or the recording is wrong; 1 anything else."
 #define COMMON_N_MAX_REFUSAL "--n-max goes with --engine window only: the stream engine keeps no samples"
+
+/// One picture of all joints; the same as in jointcal/types.h.
+#define COMMON_PICTURE                                                                                                                   \
+    "\n\n"                                                                                                                               \
+    "   proximal segment (a thigh, say)           distal segment (a shank)\n"                                                            \
+    "  -----------[ sensor 1 ]-----------( o )-----------[ sensor 2 ]----------\n"                                                       \
+    "                   <------ r1 -------  ------- r2 ------->\n"                                                                       \
+    "\n"                                                                                                                                 \
+    "Each sensor may sit anywhere on its segment, turned in any way. o is the joint; r1 and r2 lead from it to the sensors, in m, each " \
+    "in its sensor's frame. The joint's axes are unit vectors: axis 1 in the frame of sensor 1, axis 2 in that of sensor 2; a hinge "    \
+    "has one axis, seen by both. Rates are in rad/s, accelerations in m/s^2: a sensor that lies still reads +9.81 on the axis that "     \
+    "points up.\n"
 
 /// Unit of --max-bound.
 typedef enum { BOUND_IN_DEG, BOUND_IN_M } bound_unit_t;

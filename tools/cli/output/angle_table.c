@@ -12,8 +12,7 @@
 
 static exit_status_t failed(const angle_table_t *table)
 {
-    complain(table->name, 0, 0, "%s", strerror(errno));
-    return EXIT_TROUBLE;
+    return complain_output(table->name);
 }
 
 /* Zero, signs and convention; units become degrees. */

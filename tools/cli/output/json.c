@@ -77,6 +77,33 @@ void json_numbers(json_t *json, const char *key, bool known, const float *values
     (void)fputc(']', json->file);
 }
 
+/* Between quotes, with what JSON forbids there written as it wants it. */
+static void write_string(FILE *file, const char *text)
+{
+    (void)fputc('"', file);
+    for (const char *at = text; *at != '\0'; at++) {
+        if (*at == '"' || *at == '\\') {
+            (void)fprintf(file, "\\%c", *at);
+        } else if ((unsigned char)*at < 0x20u) {
+            (void)fprintf(file, "\\u%04x", (unsigned)*at);
+        } else {
+            (void)fputc(*at, file);
+        }
+    }
+    (void)fputc('"', file);
+}
+
+void json_sentences(json_t *json, const char *key, const sentence_t *sentences, size_t count)
+{
+    json_key(json, key);
+    (void)fputc('[', json->file);
+    for (size_t k = 0; k < count; k++) {
+        (void)fputs((k == 0) ? "" : ", ", json->file);
+        write_string(json->file, sentences[k]);
+    }
+    (void)fputc(']', json->file);
+}
+
 const char *time_text(int64_t us, char buffer[static 32])
 {
     const uint64_t size = (us < 0) ? (uint64_t)-us : (uint64_t)us;

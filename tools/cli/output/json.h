@@ -4,6 +4,8 @@
 #ifndef JCAL_CLI_OUTPUT_JSON_H
 #define JCAL_CLI_OUTPUT_JSON_H
 
+#include "input/check_time.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -34,6 +36,9 @@ void json_number(json_t *json, const char *key, float value);
 
 /// An array of numbers, or null if it is not known.
 void json_numbers(json_t *json, const char *key, bool known, const float *values, size_t count);
+
+/// An array of sentences, whatever is in them.
+void json_sentences(json_t *json, const char *key, const sentence_t *sentences, size_t count);
 
 /// Microseconds as seconds, exactly; or null if the time is not known.
 void json_time(json_t *json, const char *key, bool known, int64_t us);

@@ -2,9 +2,11 @@
 /* Error messages. */
 #include "output/message.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 void complain(const char *file, uint64_t line, uint64_t column, const char *format, ...)
 {
@@ -21,4 +23,12 @@ void complain(const char *file, uint64_t line, uint64_t column, const char *form
     (void)vfprintf(stderr, format, arguments);
     va_end(arguments);
     (void)fputc('\n', stderr);
+}
+
+exit_status_t complain_output(const char *name)
+{
+    if (errno != EPIPE) {
+        complain(name, 0, 0, "%s", strerror(errno));
+    }
+    return EXIT_TROUBLE;
 }

@@ -18,4 +18,8 @@ typedef enum {
 __attribute__((format(printf, 4, 5))) void complain(const char *file, uint64_t line, uint64_t column,
                                                     const char *format, ...);
 
+/// Says why standard output or a file could not be written, from errno; nothing of a pipe that its reader has closed, as `| head` does.
+/// Returns EXIT_TROUBLE.
+exit_status_t complain_output(const char *name);
+
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Progress bar on standard error; silent unless that is a terminal and the total is known.
+/// Progress bar with the time left on standard error; silent unless that is a terminal and the total is known.
 #ifndef JCAL_CLI_OUTPUT_PROGRESS_H
 #define JCAL_CLI_OUTPUT_PROGRESS_H
 
@@ -12,6 +12,7 @@ typedef struct {
     bool drawn;
     uint64_t total;
     unsigned percent;
+    double began_s; /* by the clock */
 } progress_t;
 
 void progress_start(progress_t *progress, uint64_t total);

@@ -4,6 +4,7 @@
 #ifndef JCAL_CLI_OUTPUT_REPORT_H
 #define JCAL_CLI_OUTPUT_REPORT_H
 
+#include "input/check.h"
 #include "input/row_clock.h"
 #include "jointcal/jointcal.h"
 #include "output/json.h"
@@ -45,12 +46,19 @@ typedef struct {
     const report_words_t *words;
     jcal_head_t head;  ///< Counters are of rows.
     report_bounds_t bounds;
+    check_findings_t findings;  ///< Of the recording as a whole.
     row_clock_t clock;
     const char *orientations;  ///< Where they come from; null if none are in use.
     bool was_ready;            ///< Ready was entered at least once.
     int64_t ready_us;          ///< When it was entered first, as in the file.
     float max_bound;           ///< What the bounds must be below, rad or m.
 } report_t;
+
+/// Lets findings that refuse or explain take the place of what the library can say.
+void report_apply_findings(report_t *report);
+
+/// Why the status is not ready, in words; null if it is.
+const char *report_reason(const report_t *report);
 
 /// Begins a line of JSON: the keys from `event` to `reason`. `event` is estimate, ready, moved or end.
 json_t report_json_begin(FILE *file, const char *event, const report_t *report);
@@ -61,8 +69,8 @@ void report_json_axes(json_t *json, const report_axes_t *axes);
 /// A vector, or null.
 void report_json_vector(json_t *json, const char *key, bool known, jcal_vec3_t v);
 
-/// Ends it with the counters.
-void report_json_end(json_t *json, const jcal_head_t *head);
+/// Ends it with `advice` and the counters.
+void report_json_end(json_t *json, const report_t *report);
 
 /// One line of text for an event in the middle: estimate, ready, moved.
 void report_print_event(FILE *file, const char *event, const report_t *report);

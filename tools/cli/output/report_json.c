@@ -32,8 +32,10 @@ void report_json_axes(json_t *json, const report_axes_t *axes)
     json_numbers(json, "uncertainty_deg", bounded, bounds, 2);
 }
 
-void report_json_end(json_t *json, const jcal_head_t *head)
+void report_json_end(json_t *json, const report_t *report)
 {
+    const jcal_head_t *head = &report->head;
+    json_sentences(json, "advice", report->findings.sentences, report->findings.count);
     json_count(json, "samples", head->samples);
     json_count(json, "rejected", head->rejected);
     json_key(json, "rejected_by");

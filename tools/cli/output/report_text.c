@@ -44,8 +44,23 @@ static const char *uncertain_words(jcal_weak_t weak)
     }
 }
 
-static const char *reason_words(const report_t *report)
+void report_apply_findings(report_t *report)
 {
+    jcal_head_t *head = &report->head;
+    if (report->findings.refuses && head->status == JCAL_READY) {
+        head->status = JCAL_COLLECTING;
+    }
+    if (report->findings.explains && head->status != JCAL_READY) {
+        head->reason = JCAL_REASON_BAD_SAMPLES;
+        head->hint = JCAL_HINT_CHECK_SENSORS;
+    }
+}
+
+const char *report_reason(const report_t *report)
+{
+    if (report->findings.explains && report->head.status != JCAL_READY) {
+        return report->findings.sentences[0];
+    }
     switch (report->head.reason) {
     case JCAL_REASON_NO_DATA:
         return "too few usable samples";
@@ -193,7 +208,7 @@ void report_print_event(FILE *file, const char *event, const report_t *report)
         (void)fprintf(file, "  %s to within %.1f and %.1f %s", words->bounded, readable(report, bounds->bound1),
                       readable(report, bounds->bound2), words->unit);
     }
-    const char *reason = reason_words(report);
+    const char *reason = report_reason(report);
     (void)fprintf(file, "%s%s\n", (reason != NULL) ? "  " : "", (reason != NULL) ? reason : "");
 }
 
@@ -202,7 +217,7 @@ void report_print_head(FILE *file, const report_t *report)
     const jcal_head_t *head = &report->head;
     (void)fprintf(file, "%s, %s engine: %s\n", report->words->name, jcal_engine_string(head->engine),
                   status_words(head->status));
-    report_print_words(file, "why", reason_words(report));
+    report_print_words(file, "why", report_reason(report));
 }
 
 void report_print_axes(FILE *file, const report_axes_t *axes)
@@ -232,13 +247,26 @@ void report_print_orientations(FILE *file, const report_t *report)
     report_print_words(file, "orientations", report->orientations);
 }
 
+/* What to do. A finding that explains has said so, and more motion will not help. */
+static void print_help(FILE *file, const report_t *report)
+{
+    const check_findings_t *findings = &report->findings;
+    const bool explained = findings->explains && report->head.status != JCAL_READY;
+    if (!explained) {
+        report_print_words(file, "what would help", hint_words(report));
+    }
+    for (size_t k = explained ? 1 : 0; k < findings->count; k++) {
+        report_print_words(file, "about the data", findings->sentences[k]);
+    }
+}
+
 void report_print_state(FILE *file, const report_t *report)
 {
     const jcal_head_t *head = &report->head;
     (void)fprintf(file, "  %-18s %s to within %.3g %s (95 %% confidence)\n", "asked for", report->words->asked_for,
                   readable(report, report->max_bound), report->words->unit);
     report_print_words(file, "weakest", weak_words(head->weak));
-    report_print_words(file, "what would help", hint_words(report));
+    print_help(file, report);
     print_ready_time(file, report);
     print_samples(file, head);
 }

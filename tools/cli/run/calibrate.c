@@ -10,6 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* How often the findings of the recording are looked up while ready: they change slowly and cost as much as some tens of rows. */
+#define LOOK_EVERY_ROWS 100u
+
 /* Everything of one run; too big for comfort on the stack. */
 typedef struct {
     common_options_t options;
@@ -20,6 +23,7 @@ typedef struct {
     orientations_t orientations;      /* in use if oriented */
     uint32_t seen[JCAL_REJECT_COUNT]; /* what the joint's counters were */
     uint32_t samples;                 /* rows */
+    uint32_t looked_at;               /* rows when the recording was last looked at as a whole */
     uint32_t rejected_by[JCAL_REJECT_COUNT];
     report_t report;
     int64_t next_us; /* when the next estimate is due, as in the file */
@@ -29,19 +33,27 @@ typedef struct {
 static exit_status_t flush(void)
 {
     if (fflush(stdout) != 0 || ferror(stdout) != 0) {
-        complain("standard output", 0, 0, "%s", strerror(errno));
-        return EXIT_TROUBLE;
+        return complain_output("standard output");
     }
     return EXIT_READY;
 }
 
+/* Asks what there is to say of the recording as a whole. */
+static void look_at_recording(session_t *session)
+{
+    check_findings(&session->reading.recording.check, &session->report.findings);
+    session->looked_at = session->samples;
+    report_apply_findings(&session->report);
+}
+
 static exit_status_t emit(session_t *session, const char *event)
 {
+    look_at_recording(session);
     progress_clear(&session->reading.progress);
     if (session->options.json) {
         json_t json = report_json_begin(stdout, event, &session->report);
         session->joint->write_json(session->self, &json);
-        report_json_end(&json, &session->report.head);
+        report_json_end(&json, &session->report);
     } else if (strcmp(event, "end") == 0) {
         session->joint->print_summary(session->self, stdout, &session->report);
     } else if (session->options.every_us > 0) {
@@ -50,10 +62,24 @@ static exit_status_t emit(session_t *session, const char *event)
     return flush();
 }
 
+/* Ready is told only if the recording as a whole allows it: asked when ready would be entered, and now and then while it stays. */
+static void check_ready(session_t *session, bool was_ready)
+{
+    if (session->report.head.status != JCAL_READY) {
+        return;
+    }
+    if (!was_ready || session->samples - session->looked_at >= LOOK_EVERY_ROWS) {
+        look_at_recording(session);
+    } else {
+        report_apply_findings(&session->report);
+    }
+}
+
 /* Takes over what the joint says now. Its counters are of what it was given and since when it was reset; a report counts rows. */
 static void look(session_t *session)
 {
     report_t *report = &session->report;
+    const bool was_ready = report->head.status == JCAL_READY;
     report->head = *session->joint->get(session->self);
     report->bounds = session->joint->bounds(session->self);
     report->head.samples = session->samples;
@@ -73,6 +99,7 @@ static void look(session_t *session)
         report->head.reason = complaint;
         report->head.hint = JCAL_HINT_CHECK_SENSORS;
     }
+    check_ready(session, was_ready);
 }
 
 /* The next row, with its orientations if the joint needs them. */
@@ -180,6 +207,8 @@ static recording_event_t prepare(session_t *session)
     }
     const recording_event_t opened = orientations_open(&session->orientations, recording);
     session->report.orientations = orientations_words(&session->orientations);
+    recording->check.times_only =
+        session->orientations.source == ORIENTATIONS_FROM_COLUMNS && !session->joint->uses_readings;
     return opened;
 }
 
@@ -207,7 +236,7 @@ exit_status_t calibrate(const common_options_t *options, const calibrate_joint_t
     session->oriented = oriented;
     session->report.words = joint->words;
     session->report.max_bound = options->max_bound;
-    exit_status_t status = reading_open(&session->reading, options->recording);
+    exit_status_t status = reading_open(&session->reading, options->recording, options->sort);
     if (status == EXIT_READY) {
         status = run_recording(session);
     }

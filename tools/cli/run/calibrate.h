@@ -12,7 +12,8 @@
 /// A joint; `self` is its own state.
 typedef struct {
     const report_words_t *words;
-    bool third;  ///< It has three sensors.
+    bool third;          ///< It has three sensors.
+    bool uses_readings;  ///< It looks at rates and accelerations even where orientations are in the recording.
     /// Takes in a row; false if the library refuses the call itself. Rows without a time come with rates that are NaN, rows whose
     /// orientations are of no use do not come.
     bool (*push)(void *self, const recording_row_t *row, uint64_t t_us);

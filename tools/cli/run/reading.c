@@ -5,7 +5,7 @@
 #include <errno.h>
 #include <string.h>
 
-exit_status_t reading_open(reading_t *reading, const char *name)
+exit_status_t reading_open(reading_t *reading, const char *name, bool sorted)
 {
     memset(reading, 0, sizeof *reading);
     if (input_open(&reading->input, name) != 0) {
@@ -13,7 +13,13 @@ exit_status_t reading_open(reading_t *reading, const char *name)
         return EXIT_INPUT;
     }
     const recording_event_t event = recording_open(&reading->recording, input_read, &reading->input);
-    return (event == RECORDING_ROW) ? EXIT_READY : reading_give_up(reading, event);
+    if (event != RECORDING_ROW) {
+        return reading_give_up(reading, event);
+    }
+    if (sorted) {
+        recording_want_sorted(&reading->recording);
+    }
+    return EXIT_READY;
 }
 
 void reading_begin(reading_t *reading)

@@ -15,8 +15,8 @@ typedef struct {
     progress_t progress;
 } reading_t;
 
-/// Opens a recording and reads its header; "-" is standard input. EXIT_READY, or another status after a message.
-exit_status_t reading_open(reading_t *reading, const char *name);
+/// Opens a recording and reads its header; "-" is standard input. Rows come in the order of their times if `sorted`. EXIT_READY, or another status after a message.
+exit_status_t reading_open(reading_t *reading, const char *name, bool sorted);
 
 /// Draws progress from here on.
 void reading_begin(reading_t *reading);

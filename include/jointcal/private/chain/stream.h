@@ -16,7 +16,10 @@ typedef struct {
     jcal_chain_config_t cfg;
     jcal_center_t hip;
     jcal_center_t knee;
+    uint8_t judged[2];  ///< Judgements of hip and knee that `was_ready` follows.
+    bool was_ready;     ///< The status was `ready` after them.
     uint32_t samples;
+    uint32_t overrun;  ///< Triples that found one of the inboxes full.
     uint32_t rejected_by[JCAL_REJECT_COUNT];
 } jcal_chain_t;
 

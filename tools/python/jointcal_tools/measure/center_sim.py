@@ -169,7 +169,7 @@ def ls_table(report: Report, settings: Settings) -> None:
     report.text("LS on runs of the same kinds: with the true orientations; with the same in earth frames that wander by 1 deg rms of tilt "
                 "and 2 deg/min of heading, which is less than VQF's tilt on the rig; and with VQF's of the same data. Cover: at first ready. "
                 "Error and bound: median at the end, ready or not, mm. On the rig it is never ready: center.md says why.")
-    report.table(["orientations", "class", "runs", "ever ready", "cover", "false ready", "error", "bound", "not ready at the end"], rows)
+    report.table(["LS, orientations", "disturbance", "runs", "ready", "cover", "false", "error", "bound", "not ready at the end"], rows)
 
 
 def bias_run(index: int) -> tuple[bool, np.ndarray, np.ndarray]:

@@ -74,4 +74,4 @@ def measure(settings: Settings, report: Report) -> None:
                 "informative windows: median and 90 %, deg. None of these methods says how sure it is.")
     rows = [row_of(form, filtered, length_s, mine) for length_s in (0, *LENGTHS_S) for form in FORMS for filtered in FILTERS
             if (mine := [o for o in outcomes if (o.form, o.filtered, o.length_s) == (form, filtered, length_s)])]
-    report.table(["length", "constraint", "low-pass", "windows", "informative", "wrong of these", "wrong of all", "j1", "90 %", "j2", "90 %"], rows)
+    report.table(["length", "constraint", "low-pass", "windows", "informative", "wrong, informative", "wrong", "j1", "90 %", "j2", "90 %"], rows)

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// What is wrong with a recording as a whole, whatever the joint: rows are watched as they stream by, in constant memory, and the
+/// findings are sentences for a person.
+///
+/// Findings of three kinds. Some refuse: with these readings an answer would be wrong although it fits, so nothing may be called ready.
+/// Some explain why it is not ready. The others are remarks.
+#ifndef JCAL_CLI_INPUT_CHECK_H
+#define JCAL_CLI_INPUT_CHECK_H
+
+#include "input/check_sensor.h"
+#include "input/check_time.h"
+
+#define CHECK_SENSORS 3
+#define CHECK_PAIRS 3
+
+/// Most sentences.
+#define CHECK_SENTENCES 12
+
+/// One row; see recording_row_t.
+typedef struct {
+    double t_s;     ///< As it stands in the file, in whatever unit; NaN if there is none.
+    bool has_time;  ///< t_us is known.
+    int64_t t_us;
+    const jcal_imu_t *imu[CHECK_SENSORS];  ///< Null of a sensor that is not used.
+} check_row_t;
+
+/// Start from all zero.
+typedef struct {
+    bool times_only;  ///< Readings are not used, so they do not matter.
+
+    /* Private. */
+    uint64_t rows;
+    check_time_t times;
+    check_sensor_t sensors[CHECK_SENSORS];
+    uint32_t pair_rows[CHECK_PAIRS];
+    uint32_t same_gyr[CHECK_PAIRS];
+    uint32_t same_acc[CHECK_PAIRS];
+} check_t;
+
+typedef struct {
+    bool refuses;   ///< Nothing may be called ready.
+    bool explains;  ///< The first sentence says why it is not.
+    size_t count;
+    sentence_t sentences[CHECK_SENTENCES];
+} check_findings_t;
+
+/// Takes in a row.
+void check_push(check_t *check, const check_row_t *row);
+
+/// What there is to say of the rows so far.
+void check_findings(const check_t *check, check_findings_t *findings);
+
+#endif
