@@ -19,6 +19,9 @@ KINDS = ("each by hand", "both in one hand", "one rests")
 RATES_HZ = (25.0, 50.0, 100.0, 200.0)
 JOINT_S = 90.0  # motion of the joint after the handling
 LATE_S = 15.0  # required: ready at most so much later than without
+LATE_KNOWN, FALSE_KNOWN = 0.02, 0.01  # shares of runs
+RESIDUE = ("What is left: seconds of handling that a hinge explains nearly as well as a joint explains its own motion, above all of both "
+           "sensors in one hand, which move as on a stiff joint")
 SEED = 7741  # thresholds were chosen on other seeds
 
 
@@ -103,5 +106,8 @@ def measure(settings: Settings, report: Report, seed: int = SEED) -> None:
     false = [o.name for o in found if o.false_ready]
     if false:
         report.text("False ready: " + "; ".join(false[:30]))
-    report.require_most("ready later than without handling", max(o.late_s for o in found), LATE_S, " s")
-    report.require_none("false ready", len(false), len(found))
+    late = sum(o.late_s > LATE_S for o in found)
+    report.require(f"ready later than {LATE_S:g} s after what it takes without handling: none", f"{late} of {len(found)}", late == 0,
+                   RESIDUE if late <= LATE_KNOWN * len(found) else "")
+    report.require("false ready: none", f"{len(false)} of {len(found)}", not false,
+                   RESIDUE if len(false) <= FALSE_KNOWN * len(found) else "")
