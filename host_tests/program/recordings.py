@@ -139,3 +139,25 @@ def center_rows(seconds, rate_hz=50.0, free=3):
         q1, q2 = ball_orientations(t, free)
         rows.append([t] + imus + q1 + multiply(turn(-CENTER_HEADING, 2), q2))
     return rows
+
+
+def slow_rows(seconds, rate_hz=50.0):
+    """A hinge about z of both sensors in slow motion: what the sensors feel is gravity, turning as fast as the rates say, and little else."""
+    noise = random.Random(4)
+    h = 1e-4
+
+    def pose(t):
+        q1 = multiply(multiply(turn(0.9 * math.sin(0.9 * t), 2), turn(0.8 * math.sin(1.1 * t + 1), 0)), turn(0.9 * math.sin(0.7 * t), 1))
+        return q1, multiply(q1, turn(bend(t) * 0.8, 2))
+
+    rows = []
+    for k in range(int(seconds * rate_hz)):
+        t = k / rate_hz
+        before, now, after = pose(t - h), pose(t), pose(t + h)
+        imus = []
+        for sensor in (0, 1):
+            rate = [c / h for c in multiply(conjugate(before[sensor]), after[sensor])[1:]]
+            force = [0.2 * math.sin(2.3 * t + sensor), 0.2 * math.cos(1.9 * t), 9.81 + 0.2 * math.sin(2.9 * t)]
+            imus += [v + noise.gauss(0, 0.01) for v in rate] + [v + noise.gauss(0, 0.05) for v in rotate(conjugate(now[sensor]), force)]
+        rows.append([t] + imus)
+    return rows

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """Recordings that the program takes, in whatever form, and the rows in them that it rejects."""
+import json
 import os
 import subprocess
 
@@ -93,6 +94,20 @@ class RejectedRows(ProgramTest):
                 rejected = self.rejected(with_cell(7, column, text))
                 self.assertEqual(rejected["not_finite"], 1, (text, column))
         self.assertEqual(self.rejected(with_cell(7, "acc1_x", "1e39"))["not_finite"], 1)
+
+    def test_orientations_that_end(self):
+        columns = COLUMNS + recordings.ORIENTATION_COLUMNS
+        rows = recordings.texts(recordings.two_dof_rows(30))
+        for broken in ([], ["q2_w"], ["q1_x", "q1_y"], ["acc2_z"], ["t_s"]):
+            cells = [list(row) for row in rows]
+            for row in cells[1350:]:  # of 1500
+                for column in broken:
+                    row[columns.index(column)] = "nan"
+            result = self.run_program("two-dof", self.write(recordings.csv(cells, columns)), "--json")
+            end = json.loads(result.stdout.decode().splitlines()[-1])
+            self.assertEqual((result.returncode, end["status"], end["reason"]),
+                             (3, "collecting", "bad_samples") if broken else (0, "ready", None), broken)
+            self.assertEqual(end["rejected_by"]["not_finite"], 150 if broken else 0)
 
     def test_first_rows_without_time(self):
         cells = with_cell(0, "t_s", "")

@@ -65,7 +65,10 @@ class Hinge(AnglesTest):
 
     def test_never_ready_leaves_with_3(self):
         short = recordings.csv(HINGE_CELLS[:20], COLUMNS)
-        _, rows = self.rows(self.angles(short, "hinge"), status=3)
+        result = self.angles(short, "hinge")
+        self.assertEqual(result.stderr.decode(), "r.csv: no row has angles: too few usable samples; what would help: bend and stretch the joint\n")
+        result.stderr = b""
+        _, rows = self.rows(result, status=3)
         self.assertEqual([row[1] for row in rows], [None] * 20)
 
     def test_calibration_gives_angles_from_the_first_row_on(self):
@@ -301,6 +304,65 @@ class Refused(AnglesTest):
         name = self.calibration(ELBOW_LINE)
         self.assert_error(self.angles(ELBOW, "two-dof", "--calibration", name, "--zero", "99"),
                           "jointcal: --zero: no row with angles at or after 99 s")
+
+
+class Series(AnglesTest):
+    def test_angles_that_turn_on_do_not_jump(self):
+        """Two and a half turns there and back."""
+        def flexion(t):
+            return 8.0 - 8.0 * math.cos(0.4 * t)
+        cells = recordings.texts([[k / 50] + [0.1] * 12 + recordings.joint_orientations(k / 50, flexion(k / 50), 0.7) for k in range(800)])
+        name = self.calibration(HINGE_LINE)
+        for arguments in ([], ["--zero", "first"], ["--zero", "range"]):
+            _, rows = self.rows(self.angles(recordings.csv(cells, COLUMNS), "hinge", "--calibration", name, *arguments))
+            known = [row[1] for row in rows if row[1] is not None]
+            self.assertGreater(len(known), 700)
+            self.assertLess(max(abs(a - b) for a, b in zip(known, known[1:])), 10)
+            self.assertGreater(max(known) - min(known), 800)
+
+    def test_best_estimate_with_its_bound(self):
+        header, rows = self.rows(self.angles(HINGE, "hinge", "--accept", "best"))
+        self.assertEqual(header, "t_s,flexion_deg,bound_deg")
+        ready = [row for row in self.rows(self.angles(HINGE, "hinge"))[1] if row[1] is not None]
+        best = [row for row in rows if row[1] is not None]
+        self.assertGreater(len(best), len(ready))
+        self.assertLess(best[0][0], ready[0][0])
+        self.assertGreater(best[0][2], 3.0)
+        self.assertLess(best[-1][2], 3.0)
+        self.assertEqual(best[-1][0], ready[-1][0])
+        self.assertLess(abs(best[-1][1] - ready[-1][1]), 0.5)  # the heading has been followed for longer
+        self.assertTrue(all((row[1] is None) == (row[2] is None) for row in rows))
+        header, rows = self.rows(self.angles(ELBOW, "two-dof", "--accept", "best"))
+        self.assertEqual(header, TWO_DOF_HEADER + ",bound_deg")
+        self.assertEqual({len(row) for row in rows}, {6})
+        name = self.calibration(ELBOW_LINE)
+        self.assert_usage(["angles", "a", "--joint", "hinge", "--accept", "best", "--calibration", name], "--accept best does not go with")
+        self.assert_usage(["angles", "a", "--joint", "hinge", "--accept", "worst"], "--accept: 'worst' is neither ready nor best")
+
+    def test_names_of_columns_in_a_storage_file(self):
+        names = ["--flexion-name", "elbow_flexion_r", "--pronation-name", "pro_sup_r", "--carrying-name", "carry", "--heading-name", "h"]
+        for more, bound in (([], []), (["--accept", "best", "--bound-name", "b95"], ["b95"])):
+            self.angles(ELBOW, "two-dof", "--out", "a.sto", *names, *more)
+            lines = (self.folder / "a.sto").read_text().splitlines()
+            self.assertEqual(lines[lines.index("endheader") + 1].split("\t"), ["time", "elbow_flexion_r", "pro_sup_r", "carry", "h", *bound])
+            self.assertIn(f"nColumns={5 + len(bound)}", lines)
+        self.angles(HINGE, "hinge", "--out", "h.sto", "--flexion-name", "knee_angle_r")
+        lines = (self.folder / "h.sto").read_text().splitlines()
+        self.assertEqual(lines[lines.index("endheader") + 1], "time\tknee_angle_r")
+        for name in ("", "a b", "a\tb", "a,b"):
+            self.assert_usage(["angles", "a", "--joint", "hinge", "--out", "a.sto", "--flexion-name", name], "is no name of a column")
+        self.assert_usage(["angles", "a", "--joint", "hinge", "--flexion-name", "knee"], "go with --out FILE.sto")
+        self.assert_usage(["angles", "a", "--joint", "hinge", "--out", "a.csv", "--flexion-name", "knee"], "go with --out FILE.sto")
+
+    def test_why_no_row_has_angles(self):
+        units = [[repr(v * (57.3 if "gyr" in c else 1.0)) for c, v in zip(recordings.COLUMNS, row)] for row in recordings.slow_rows(20)]
+        result = self.angles(recordings.csv(units), "hinge")
+        self.assertEqual(result.returncode, 3)
+        first, *others = result.stderr.decode().splitlines()
+        self.assertTrue(first.startswith("r.csv: no row has angles: rates of sensor 1 "), first)
+        self.assertEqual([line[:14] for line in others], ["r.csv: rates o"])
+        still = recordings.csv([[repr(k / 50)] + ["0.001", "0", "0", "0", "0", "9.81"] * 2 for k in range(500)])
+        self.assertTrue(self.angles(still, "hinge").stderr.decode().startswith("r.csv: no row has angles: "))
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ DEMO = TWO_DOF_DEMO
 DATA = pathlib.Path(os.environ.get("JOINTCAL_DATA", ROOT / "data"))
 RIG = sorted(DATA.glob("rig_2D_*.csv"))
 KEYS = ["event", "t_s", "status", "engine", "weak", "hint", "reason", "axis1", "axis2", "uncertainty_deg",
-        "heading_offset_deg", "uncertainty_heading_deg", "carrying_angle_deg", "samples", "rejected", "rejected_by"]
+        "heading_offset_deg", "uncertainty_heading_deg", "carrying_angle_deg", "advice", "samples", "rejected", "rejected_by"]
 COLUMNS = recordings.COLUMNS + recordings.ORIENTATION_COLUMNS
 RAW = recordings.COLUMNS
 ROWS = recordings.two_dof_rows(30)

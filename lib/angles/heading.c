@@ -15,11 +15,15 @@
 #include "math/clear.h"
 #include "math/plane.h"
 #include "math/scalar.h"
+#include "sample/clock.h"
 #include "sample/unit.h"
 
 #include <stddef.h>
 
 #define MICROSECONDS 1e-6f
+
+/// Longest distance of two pairs that go on from each other, s; the first pair after a longer hole is left out.
+#define GAP_MAX_S 10.0f
 
 /// A pair counts for the time since the one before, but for no more than this, s; the first one for the least.
 #define COUNT_MAX_S 0.1f
@@ -190,15 +194,17 @@ jcal_status_t jcal_joint_heading_push(jcal_joint_heading_t *self, const jcal_ori
     if ((self == NULL) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
-    if (self->has_time && (pair->t_us <= self->t_us)) {
-        return JCAL_REJECTED;
-    }
     if (!jcal_is_unit(pair->q1) || !jcal_is_unit(pair->q2)) {
         return JCAL_REJECTED; /* the sums would not forget a long one for hours, and zeros are no orientation */
     }
+    float since_s;
+    if (jcal_clock_check(&self->clock, GAP_MAX_S, pair->t_us, &since_s) != JCAL_REJECT_NONE) {
+        return JCAL_REJECTED;
+    }
     const jcal_vec3_t a = jcal_quat_rotate(jcal_quat_normalise(pair->q1), self->axis1);
     const jcal_vec3_t b = jcal_quat_rotate(jcal_quat_normalise(pair->q2), self->axis2);
-    const float dt_s = self->has_time ? ((float)(pair->t_us - self->t_us) * MICROSECONDS) : COUNT_FIRST_S;
+    const bool goes_on = self->has_time && (pair->t_us > self->t_us);
+    const float dt_s = goes_on ? ((float)(pair->t_us - self->t_us) * MICROSECONDS) : COUNT_FIRST_S;
     add(self, a, b, dt_s);
     self->t_us = pair->t_us;
     self->has_time = true;

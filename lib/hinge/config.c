@@ -34,6 +34,9 @@ typedef struct {
 
 const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
 {
+    if (config == NULL) {
+        return "config";
+    }
     const field_t fields[] = {
         {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
         {"rate_mismatch", config->rate_mismatch, 0.0f, 0.05f},

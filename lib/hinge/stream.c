@@ -60,7 +60,7 @@
 #define SETTLED_ROUNDS 4u
 
 /// With the slots of the default inbox.
-typedef char jcal_hinge_fits_its_budget[((sizeof(jcal_hinge_t) - sizeof(jcal_inbox_t)) <= (2048u - 240u)) ? 1 : -1];
+typedef char jcal_hinge_fits_its_budget[((sizeof(jcal_hinge_t) - sizeof(jcal_inbox_t)) <= (2048u - 232u)) ? 1 : -1];
 
 /// Nothing is known yet, or no more.
 static void say_nothing_is_known(jcal_hinge_verdict_t *verdict)
@@ -184,9 +184,13 @@ static bool is_contradicted(jcal_hinge_t *self, const jcal_hinge_sample_t *sampl
 {
     const float motion_s = sample->dt_s * jcal_watch_motion(sample->w1_2 + sample->w2_2);
     const float least_s = self->verdict.after_doubt ? -DOUBT_S : 0.0f;
-    self->doubt_s = jcal_max(self->doubt_s + (self->verdict.contradicted ? motion_s : -motion_s), least_s);
-    self->verdict.after_doubt = self->verdict.after_doubt && (self->doubt_s > -DOUBT_S);
-    return !self->watch.on && (self->doubt_s > DOUBT_S);
+    float *const doubt_s = &self->watch.seen_s[0]; /* free until the watch begins */
+    if (self->watch.on) {
+        return false;
+    }
+    *doubt_s = jcal_max(*doubt_s + (self->verdict.contradicted ? motion_s : -motion_s), least_s);
+    self->verdict.after_doubt = self->verdict.after_doubt && (*doubt_s > -DOUBT_S);
+    return *doubt_s > DOUBT_S;
 }
 
 /// Returns true if a block of the refined axes closed.

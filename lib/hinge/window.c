@@ -78,6 +78,9 @@ jcal_hinge_window_config_t jcal_hinge_window_config_default(void)
 
 const char *jcal_hinge_window_config_check(const jcal_hinge_window_config_t *config)
 {
+    if (config == NULL) {
+        return "config";
+    }
     const char *wrong = jcal_hinge_config_check(&config->hinge);
     if (wrong != NULL) {
         return wrong;
@@ -97,7 +100,7 @@ const char *jcal_hinge_window_config_check(const jcal_hinge_window_config_t *con
 
 size_t jcal_hinge_window_storage_bytes(const jcal_hinge_window_config_t *config)
 {
-    return JCAL_HINGE_WINDOW_STORAGE_BYTES(config->n_max, config->half_window);
+    return (config == NULL) ? 0u : JCAL_HINGE_WINDOW_STORAGE_BYTES(config->n_max, config->half_window);
 }
 
 /* No samples are selected, and nothing is concluded from them. */
@@ -183,6 +186,10 @@ static void keep_time(jcal_hinge_window_t *self, uint64_t t_us)
         jcal_score_restart(&self->score);
     } else {
         /* Continuous. */
+    }
+    const uint64_t period_us = (uint64_t)(self->cfg.solve_period_s * us_per_s);
+    if (t_us < self->stepped_us) { /* a clock that began anew */
+        self->solve_due_us = t_us + period_us;
     }
     self->stepped_us = t_us;
 }

@@ -30,6 +30,15 @@ static inline bool jcal_within(float value, float low, float high)
     return (value >= low) && (value <= high);
 }
 
+/// True unless NaN or infinite: the exponent is not all ones. Works on bits, so that no option of the compiler changes it.
+static inline bool jcal_is_finite(float value)
+{
+    const uint32_t exponent = 0x7F800000u;
+    uint32_t bits;
+    (void)memcpy(&bits, &value, sizeof bits);
+    return (bits & exponent) != exponent;
+}
+
 /// Natural logarithm of a positive, normal number; relative error below 1e-6, absolute error below 1e-7 near 1.
 ///
 /// Method:   x = 2^k m with m in [2/3, 4/3], then ln m = 2 artanh((m - 1) / (m + 1)) as a series of four terms.

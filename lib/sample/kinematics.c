@@ -25,6 +25,8 @@
 #define ROUND_FROM 0.25f
 /// Blocks go on over a hole if the next middle bin is not later than this, s: the mean of both rates then leads over it.
 #define BRIDGE_S 0.31f
+/// The newest sample is never further from the last middle bin than this, s, if no hole is longer than BRIDGE_S and the chain goes on.
+#define MIDDLE_MAX_S 60.0f
 
 static void begin_chain(jcal_kinematics_t *self)
 {
@@ -254,11 +256,20 @@ static void close_bin(jcal_kinematics_t *self, uint64_t now_us)
     self->in_bin = 0u;
 }
 
+/// Forgets the last middle bin once it is so old that nothing leads over the time since. Bins know half of the time only, so this looks
+/// at every sample: between two of them time runs on by less, or the hole itself is seen.
+static void forget_middle(jcal_kinematics_t *self, uint64_t t_us, float dt_s)
+{
+    const float since_s = (float)(uint32_t)(t_us - self->middle_us) * MICROSECONDS;
+    self->has_middle = self->has_middle && (dt_s <= BRIDGE_S) && (since_s <= MIDDLE_MAX_S);
+}
+
 /// Notices holes; sets the size of the bins from the first distance of a chain.
 static void follow_time(jcal_kinematics_t *self, uint64_t t_us)
 {
     const float dt_s = (float)(t_us - self->last_us) * MICROSECONDS;
     self->last_us = t_us;
+    forget_middle(self, t_us, dt_s);
     const bool is_even = (dt_s < (EVEN * self->interval_s)) && ((dt_s * EVEN) > self->interval_s);
     if ((self->interval_s > 0.0f) && !is_even) {
         begin_chain(self);

@@ -3,9 +3,11 @@
 /// Checks of single pairs of orientations. See orientation.h.
 #include "jointcal/orientation.h"
 
+#include "math/scalar.h"
+#include "sample/clock.h"
 #include "sample/unit.h"
 
-#define MICROSECONDS 1e-6f
+#include <stddef.h>
 
 /// As in gate.c: share of bad samples that may be lived with, and the weight of the newest.
 #define BAD_SHARE_MAX 0.2f
@@ -27,36 +29,38 @@ static jcal_reject_t verdict(jcal_orientation_gate_t *self, const jcal_gate_conf
 {
     const float square1 = jcal_unit_length2(pair->q1);
     const float square2 = jcal_unit_length2(pair->q2);
-    if (!((square1 - square1) == 0.0f) || !((square2 - square2) == 0.0f)) {
+    if (!jcal_is_finite(square1) || !jcal_is_finite(square2)) {
         return JCAL_REJECT_NOT_FINITE;
     }
-    if (self->has_last && (pair->t_us <= self->last.t_us)) {
-        return JCAL_REJECT_TIME_ORDER;
+    float dt_s;
+    const jcal_reject_t time = jcal_clock_check(&self->clock, config->gap_s, pair->t_us, &dt_s);
+    if (time == JCAL_REJECT_TIME_ORDER) {
+        return time;
     }
     if (!jcal_is_unit(pair->q1) || !jcal_is_unit(pair->q2)) {
         return JCAL_REJECT_OUT_OF_RANGE;
     }
-    if (!self->has_last) {
-        self->last = *pair;
-        self->has_last = true;
-        return JCAL_REJECT_NONE;
-    }
-    const float dt_s = (float)(pair->t_us - self->last.t_us) * MICROSECONDS;
-    self->still1_s = still(self->still1_s, same(pair->q1, self->last.q1), dt_s);
-    self->still2_s = still(self->still2_s, same(pair->q2, self->last.q2), dt_s);
-    self->last = *pair;
+    const bool begins = !self->has_last || (time == JCAL_REJECT_GAP);
+    self->still1_s = still(self->still1_s, !begins && same(pair->q1, self->last.q1), dt_s);
+    self->still2_s = still(self->still2_s, !begins && same(pair->q2, self->last.q2), dt_s);
+    self->last.q1 = pair->q1;
+    self->last.q2 = pair->q2;
+    self->has_last = true;
     if ((self->still1_s > config->frozen_s) || (self->still2_s > config->frozen_s)) {
         return JCAL_REJECT_FROZEN;
     }
     if ((self->still1_s > 0.0f) || (self->still2_s > 0.0f)) {
         return JCAL_REJECT_REPEATED;
     }
-    return (dt_s > config->gap_s) ? JCAL_REJECT_GAP : JCAL_REJECT_NONE;
+    return time;
 }
 
 jcal_reject_t jcal_orientation_gate_check(jcal_orientation_gate_t *self, const jcal_gate_config_t *config,
                                           const jcal_orientation_pair_t *pair)
 {
+    if ((self == NULL) || (config == NULL) || (pair == NULL)) {
+        return JCAL_REJECT_NOT_FINITE;
+    }
     const jcal_reject_t outcome = verdict(self, config, pair);
     self->samples += 1u;
     if (outcome != JCAL_REJECT_NONE) {

@@ -7,7 +7,7 @@
 /// nobody else does. So step copies what it needs before it gives the slot back, and looks into a slot only after it has peeked.
 ///
 /// Each index is written by one side only. The barriers keep what is done to a slot between the two calls that enclose it, for
-/// compiler and cores; 32-bit loads and stores must be atomic, as they are on any Cortex-M.
+/// compiler and cores; 16-bit loads and stores must be atomic, as they are on any Cortex-M.
 #ifndef JCAL_RING_H
 #define JCAL_RING_H
 
@@ -18,8 +18,8 @@
 /// Push: is there a free slot? If so `slot` is its index, else the sample is counted as lost.
 static inline bool jcal_ring_room(jcal_ring_t *self, uint32_t *slot)
 {
-    const uint32_t at = self->written;
-    if ((at - self->taken) >= JCAL_INBOX_CAPACITY) {
+    const uint16_t at = self->written;
+    if ((uint16_t)(at - self->taken) >= JCAL_INBOX_CAPACITY) {
         self->overrun += 1u;
         return false;
     }
@@ -32,13 +32,13 @@ static inline bool jcal_ring_room(jcal_ring_t *self, uint32_t *slot)
 static inline void jcal_ring_publish(jcal_ring_t *self)
 {
     JCAL_BARRIER(); /* all of the slot is written before it is said to be there */
-    self->written = self->written + 1u;
+    self->written = (uint16_t)(self->written + 1u);
 }
 
 /// Step: is there a sample? If so `slot` is the index of the oldest.
 static inline bool jcal_ring_peek(const jcal_ring_t *self, uint32_t *slot)
 {
-    const uint32_t at = self->taken;
+    const uint16_t at = self->taken;
     if (at == self->written) {
         return false;
     }
@@ -51,13 +51,13 @@ static inline bool jcal_ring_peek(const jcal_ring_t *self, uint32_t *slot)
 static inline void jcal_ring_release(jcal_ring_t *self)
 {
     JCAL_BARRIER(); /* all of the slot is read before it is said to be free */
-    self->taken = self->taken + 1u;
+    self->taken = (uint16_t)(self->taken + 1u);
 }
 
 /// How many samples wait; for step and get.
 static inline uint32_t jcal_ring_waiting(const jcal_ring_t *self)
 {
-    return self->written - self->taken;
+    return (uint16_t)(self->written - self->taken);
 }
 
 #endif /* JCAL_RING_H */

@@ -25,13 +25,14 @@ jcal_status_t jcal_two_dof_keep(jcal_two_dof_kept_t *self, jcal_orientation_gate
     self->pushes = (uint8_t)((self->pushes < UINT8_MAX) ? (self->pushes + 1u) : UINT8_MAX);
     const uint32_t before =
         (self->ring.written - 1u) % JCAL_INBOX_CAPACITY; /* only push writes there, so it is still there */
-    if ((self->ring.written > 0u) && ((pair->t_us - self->slots[before].t_us) < apart_us)) {
+    if (self->has_kept && ((pair->t_us - self->slots[before].t_us) < apart_us)) {
         return JCAL_OK;
     }
     const jcal_orientation_pair_t unit = {pair->t_us, jcal_quat_normalise(pair->q1), jcal_quat_normalise(pair->q2)};
     self->slots[slot] = unit;
     self->pushes_of[slot] = self->pushes;
     self->pushes = 0u;
+    self->has_kept = true;
     jcal_ring_publish(&self->ring);
     return JCAL_OK;
 }

@@ -4,6 +4,7 @@
 #include "jointcal/two_dof_window.h"
 
 #include "math/clear.h"
+#include "sample/clock.h"
 #include "sample/ring.h"
 #include "two_dof/kept.h"
 #include "two_dof/result.h"
@@ -92,6 +93,20 @@ jcal_status_t jcal_two_dof_window_push(jcal_two_dof_window_t *self, const jcal_o
     return jcal_two_dof_keep(&self->kept, &self->gate, &self->cfg.two_dof.gate, pair, KEEP_US);
 }
 
+/// After a clock that began anew the rows before it get times as if it had not: the newest of them is that much older than this one,
+/// modulo 2^64 us, that their ages stay right.
+static void keep_times(jcal_two_dof_window_t *self, uint64_t t_us)
+{
+    if (self->count == 0u) {
+        return;
+    }
+    const uint64_t newest_us = rows_of(self)[((uint32_t)self->next + self->cfg.n_max - 1u) % self->cfg.n_max].t_us;
+    const bool is_later = (t_us - newest_us) < (UINT64_MAX / 2u);
+    for (uint32_t k = 0u; !is_later && (k < self->count); ++k) {
+        rows_of(self)[k].t_us += t_us - newest_us - JCAL_CLOCK_ANEW_US;
+    }
+}
+
 jcal_status_t jcal_two_dof_window_step(jcal_two_dof_window_t *self)
 {
     if (!is_prepared(self)) {
@@ -105,6 +120,7 @@ jcal_status_t jcal_two_dof_window_step(jcal_two_dof_window_t *self)
     if (!jcal_two_dof_middle(&self->kept, &middle)) {
         return JCAL_OK;
     }
+    keep_times(self, middle.at->t_us);
     jcal_two_dof_row_t *const newest = &rows_of(self)[self->next];
     const jcal_two_dof_row_t row = {.t_us = middle.at->t_us,
                                     .q1 = middle.at->q1,

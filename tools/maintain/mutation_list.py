@@ -27,6 +27,8 @@ TWO_RESULT = "lib/two_dof/result.c"
 ANGLES = "lib/angles/angles.c"
 HEADING = "lib/angles/heading.c"
 ORIENTATION = "lib/sample/orientation.c"
+SENSOR = "lib/sample/sensor.c"
+CLOCK = "lib/sample/clock.c"
 RATE = "lib/sample/rate.h"
 RING = "lib/sample/ring.h"
 KEPT = "lib/two_dof/kept.c"
@@ -173,10 +175,18 @@ MUTATIONS = [
     (RESIDUAL, "return across1 - across2;", "return across1 + across2;", "(24)"),
     (ACCEPT, "/ (n - 1.0f);", "/ n;", "(58)"),
     (ACCEPT, "const float turned2 = JCAL_PI - same2;", "const float turned2 = same2;", "(66)"),
-    (GATE, "(magnitude >= sensor->extreme[i])", "(magnitude > sensor->extreme[i])", "clipping"),
-    (GATE, "jcal_vec3_cross(imu->acc_m_s2, imu->gyr_rad_s)",
-     "jcal_vec3_cross(imu->acc_m_s2, imu->acc_m_s2)", "turning gravity"),
-    (GATE, "return (dt_s > cfg->gap_s) ? JCAL_REJECT_GAP", "return (dt_s < cfg->gap_s) ? JCAL_REJECT_GAP", "gap"),
+    (SENSOR, "(in_units(magnitude, most) >= extreme[i])", "(in_units(magnitude, most) > extreme[i])", "clipping"),
+    (SENSOR, "jcal_vec3_cross(turn->from_m_s2, turn->angle_rad)", "jcal_vec3_cross(turn->from_m_s2, turn->from_m_s2)",
+     "turning gravity"),
+    (SENSOR, "#define TURN_MAX_S 1.0f", "#define TURN_MAX_S 1e9f", "a sensor at rest keeps the turn to itself"),
+    (SENSOR, "((2.0f * less) >= more) ? more : less", "(less >= 0.0f) ? more : less", "a glitch is no range"),
+    (SENSOR, "#define EXTREME_FADE 6u", "#define EXTREME_FADE 16u", "extremes fade"),
+    (SENSOR, "return found && !stands(last, now);", "return found;", "an accelerometer that is held"),
+    (SENSOR, "(across > (IN_PLANE * square))", "(across >= 0.0f)", "motion in a plane without noise"),
+    (SENSOR, "#define DEAD_FORCE_M_S2 2.0f", "#define DEAD_FORCE_M_S2 2e6f", "a dead accelerometer component"),
+    (CLOCK, "return is_later ? JCAL_REJECT_GAP : JCAL_REJECT_TIME_ORDER;",
+     "return is_later ? JCAL_REJECT_TIME_ORDER : JCAL_REJECT_GAP;", "gap"),
+    (CLOCK, "if (self->run_us >= JCAL_CLOCK_ANEW_US) {", "if (self->run_us >= 4000000000u) {", "a clock that begins anew"),
     ("lib/math/scalar.h", "(s2 * (2.0f / 7.0f))", "(s2 * (2.0f / 9.0f))", "series of the logarithm"),
     ("lib/math/sym.h", "return diagonal + (2.0f * below);", "return diagonal + below;", "quadratic form"),
     ("lib/math/sphere.h", "const float b = j.x * j.y * a;", "const float b = j.x * j.z * a;", "tangent basis"),
@@ -237,7 +247,7 @@ MUTATIONS = [
     (HEADING, "jcal_quat_rotate(jcal_quat_normalise(pair->q1), self->axis1)", "jcal_quat_rotate(pair->q1, self->axis1)",
      "length of a quaternion"),
     (ANGLES, "!jcal_is_unit(q_s2_e2) ||", "", "an angle of zeros"),
-    (ORIENTATION, "(pair->t_us <= self->last.t_us)", "(pair->t_us < self->last.t_us)", "time that stands still"),
+    (CLOCK, "(t_us == from_us) || !(since_s <= gap_s)", "!(since_s <= gap_s)", "time that stands still"),
     (RATE, "const float sign = (turn.w < 0.0f) ? -1.0f : 1.0f;", "const float sign = 1.0f;", "sign of a quaternion"),
     (RATE, "jcal_quat_mul(to, jcal_quat_conj(from))", "jcal_quat_mul(jcal_quat_conj(from), to)", "frame of the rate"),
     (RATE, "(2.0f * jcal_atan2(sine, sign * turn.w) / sine)", "(jcal_atan2(sine, sign * turn.w) / sine)", "half angle"),
@@ -565,8 +575,7 @@ MUTATIONS = [
     (CENTER, "if (jcal_center_sums_close(&self->work.sums) ||", "if (", "blocks that are never closed"),
     (TIE, "!hip->work.as.inverse.is_factored ||", "", "ties without a factor of the hip's"),
     (CJUDGE, "return inverse->is_factored;", "return true;", "a matrix without a factor"),
-    ("lib/sample/gate.c", "out.clipped = out.clipped && exceeds(&now[0], GYR_CLIP_MIN_RAD_S);", "out.clipped = out.clipped && true;",
-     "a coarse reading at rest"),
+    (SENSOR, "return exceeds(&now[0], GYR_CLIP_MIN_RAD_S) &&", "return true &&", "a coarse reading at rest"),
 ]
 
 # Old text -> why no test can see the difference.

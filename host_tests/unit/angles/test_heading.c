@@ -174,7 +174,29 @@ static void pairs_without_a_value_or_out_of_order_change_nothing(void)
     pair.t_us = 60000000u;
     pair.q2.x = NAN;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_joint_heading_push(&follower, &pair));
-    TEST_ASSERT_EQUAL_MEMORY(&before, &follower, sizeof before);
+    TEST_ASSERT_EQUAL_MEMORY(before.sums, follower.sums, sizeof before.sums);
+    TEST_ASSERT_EQUAL_FLOAT(before.weight, follower.weight);
+    TEST_ASSERT_EQUAL_FLOAT(before.last.heading_rad, follower.last.heading_rad);
+    TEST_ASSERT_TRUE((before.t_us == follower.t_us) && (before.clock.last_us == follower.clock.last_us));
+}
+
+static void a_clock_that_begins_anew_is_followed_within_a_second(void)
+{
+    jcal_joint_heading_t follower;
+    start(&follower, &ELBOW, 10.0f);
+    uint32_t rejected = 0;
+    for (uint64_t k = 0; k < 400u; ++k) {
+        const pose_t pose = moving(0.05 * (double)k, 0.5);
+        /* 20 s on, a wild time, then from zero. */
+        const uint64_t t_us =
+            (k == 150u) ? (1ull << 40) : ((k < 200u) ? (5000000u + (50000u * k)) : (50000u * (k - 200u)));
+        const jcal_orientation_pair_t pair = pose_sensors(&ELBOW, &pose, t_us);
+        rejected += (jcal_joint_heading_push(&follower, &pair) == JCAL_REJECTED) ? 1u : 0u;
+    }
+    /* The wild one; then 0.4 s of samples until the new clock is believed: nine of 0.05 s. */
+    TEST_ASSERT_EQUAL_UINT32(1u + 9u, rejected);
+    TEST_ASSERT_TRUE(get(&follower).known);
+    TEST_ASSERT_TRUE(follower.t_us == 50000u * 199u);
 }
 
 static void a_vertical_axis_of_two_tells_nothing(void)
@@ -321,6 +343,7 @@ int main(void)
     RUN_TEST(one_posture_of_two_axes_tells_nothing);
     RUN_TEST(flexion_alone_of_two_axes_tells_nothing_wrong);
     RUN_TEST(pairs_without_a_value_or_out_of_order_change_nothing);
+    RUN_TEST(a_clock_that_begins_anew_is_followed_within_a_second);
     RUN_TEST(a_vertical_axis_of_two_tells_nothing);
     RUN_TEST(one_pair_after_a_gap_does_not_outweigh_what_came_before);
     RUN_TEST(better_axes_are_taken_over);

@@ -58,7 +58,7 @@ static void what_does_not_fit_says_so_while_it_begins_anew(void)
     for (uint32_t k = 0; k < 3000u; ++k) {
         const jcal_pair_t pair = strangers(k);
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_update(&engine, &pair));
-        longest_s = fmaxf(longest_s, engine.doubt_s);
+        longest_s = fmaxf(longest_s, engine.watch.seen_s[0]);
         if (engine.verdict.after_doubt) {
             began = true;
             const jcal_hinge_result_t r = result_of(&engine);
@@ -76,9 +76,11 @@ static void a_joint_that_is_ready_is_not_doubted(void)
     const motion_t motion = motion_lively(9);
     run(&engine, &motion, 0, RUN);
     TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
-    engine.doubt_s = 100.0f;
     engine.verdict.contradicted = true;
-    run(&engine, &motion, RUN, RUN + 1u);
+    for (uint32_t k = RUN; k < (2u * RUN); ++k) {
+        engine.verdict.contradicted = true;
+        run(&engine, &motion, k, k + 1u);
+    }
     TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     TEST_ASSERT_TRUE(engine.coarse.has_point);
 }
@@ -90,7 +92,7 @@ static void agreement_as_long_as_the_doubt_ends_it(void)
     engine.cfg.max_bound_rad = 0.001f; /* never ready */
     run(&engine, &motion, 0, RUN);
     TEST_ASSERT_FALSE(engine.verdict.after_doubt);
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, engine.doubt_s);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, engine.watch.seen_s[0]);
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, result_of(&engine).head.reason);
 }
 
@@ -98,7 +100,7 @@ static void rest_is_no_contradiction(void)
 {
     const motion_t motion = motion_lively(9);
     run(&engine, &motion, 0, 20);
-    engine.doubt_s = 3.9f;
+    engine.watch.seen_s[0] = 3.9f;
     engine.verdict.contradicted = true;
     motion_t rest = motion;
     rest.speed = 0.0;
@@ -108,7 +110,7 @@ static void rest_is_no_contradiction(void)
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_update(&engine, &pair));
         engine.verdict.contradicted = true;
     }
-    TEST_ASSERT_TRUE(engine.doubt_s < 3.95f);
+    TEST_ASSERT_TRUE(engine.watch.seen_s[0] < 3.95f);
 }
 
 int main(void)

@@ -31,7 +31,7 @@ static void a_value_that_is_not_finite_is_rejected_before_all_else_and_leaves_no
     TEST_ASSERT_EQUAL_UINT32(12, gate.rejected_by[JCAL_REJECT_NOT_FINITE]);
     TEST_ASSERT_EQUAL_MEMORY(&before.sensor1, &gate.sensor1, sizeof gate.sensor1);
     TEST_ASSERT_EQUAL_MEMORY(&before.sensor2, &gate.sensor2, sizeof gate.sensor2);
-    TEST_ASSERT_TRUE(before.last_us == gate.last_us);
+    TEST_ASSERT_TRUE(before.clock.last_us == gate.clock.last_us);
 }
 
 static void readings_beyond_the_limits_are_out_of_range_and_those_at_them_are_not(void)
@@ -90,6 +90,70 @@ static void a_component_that_stands_at_its_extreme_while_the_sensor_turns_is_sat
             accept(5);
         }
     }
+}
+
+static void a_glitch_does_not_hide_what_is_clipped_later(void)
+{
+    for (int field = 0; field < 12; ++field) {
+        for (int samples = 1; samples <= 4; ++samples) { /* one is no range; more fade within two minutes */
+            jcal_gate_init(&gate);
+            accept(20);
+            const float rail = is_rate(field) ? 4.0f : 30.0f;
+            for (int k = 0; k < samples; ++k) {
+                jcal_pair_t pair = good();
+                *component(&pair, field) = (5.0f + (0.1f * (float)k)) * rail;
+                turn(&pair, 0.3f);
+                (void)check(&pair);
+            }
+            for (int k = 0; k < ((samples == 1) ? 10 : 6000); ++k) {
+                const jcal_pair_t pair = good();
+                (void)check(&pair);
+            }
+            jcal_reject_t cause = JCAL_REJECT_NONE;
+            for (int k = 0; k < 3; ++k) {
+                jcal_pair_t pair = good();
+                turn(&pair, 0.3f);
+                *component(&pair, field) = rail;
+                cause = check(&pair);
+            }
+            TEST_ASSERT_EQUAL_INT(JCAL_REJECT_SATURATED, cause);
+        }
+    }
+}
+
+static void an_accelerometer_that_is_read_at_a_lower_rate_is_not_clipped(void)
+{
+    for (uint32_t times = 2; times <= 8; times *= 2u) {
+        jcal_gate_init(&gate);
+        jcal_imu_t held[2] = {{{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}}, {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}}};
+        for (uint32_t k = 0; k < 800u; ++k) {
+            jcal_pair_t pair = good();
+            const float t = STEP_US * 1e-6f * (float)k;
+            const float tilt = 0.8f * sinf(2.0f * t);
+            pair.imu1.gyr_rad_s.x += 1.6f * cosf(2.0f * t);
+            pair.imu2.gyr_rad_s.x += 1.6f * cosf(2.0f * t);
+            pair.imu1.acc_m_s2 = jcal_vec3(0.01f * pair.imu1.acc_m_s2.x, 20.0f * sinf(tilt), 20.0f * cosf(tilt));
+            pair.imu2.acc_m_s2 = pair.imu1.acc_m_s2;
+            held[0] = (k % times == 0u) ? pair.imu1 : held[0];
+            held[1] = (k % times == 0u) ? pair.imu2 : held[1];
+            pair.imu1.acc_m_s2 = held[0].acc_m_s2;
+            pair.imu2.acc_m_s2 = held[1].acc_m_s2;
+            TEST_ASSERT_EQUAL_INT(JCAL_REJECT_NONE, check(&pair));
+        }
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, jcal_gate_complaint(&gate));
+    }
+}
+
+static void null_is_rejected(void)
+{
+    const jcal_pair_t pair = good();
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECT_NOT_FINITE, jcal_gate_check(NULL, &config, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECT_NOT_FINITE, jcal_gate_check(&gate, NULL, &pair));
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECT_NOT_FINITE, jcal_gate_check(&gate, &config, NULL));
+    TEST_ASSERT_EQUAL_UINT32(0, gate.samples);
+    TEST_ASSERT_EQUAL_STRING("config", jcal_gate_config_check(NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, jcal_gate_complaint(NULL));
+    jcal_gate_init(NULL);
 }
 
 static void a_specific_force_that_stands_while_the_sensor_rests_is_not_clipped(void)
@@ -206,7 +270,8 @@ static void one_wild_force_costs_one_sample(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REJECT_OUT_OF_RANGE, check(&wild));
     accept(50);
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, jcal_gate_complaint(&gate));
-    TEST_ASSERT_TRUE(gate.sensor2.extreme[3] < 100.0f); /* what is clipped shows at the range that the sensor has */
+    /* What is clipped shows at the range that the sensor has: below 100 m/s^2 of 320. */
+    TEST_ASSERT_TRUE(gate.sensor2.extreme[3] < (UINT16_MAX / 3u));
 }
 
 static void out_of_range_goes_before_saturated_frozen_and_repeated(void)
@@ -252,6 +317,9 @@ int main(void)
     RUN_TEST(readings_beyond_the_limits_are_out_of_range_and_those_at_them_are_not);
     RUN_TEST(the_first_sample_is_checked_for_range_too);
     RUN_TEST(a_component_that_stands_at_its_extreme_while_the_sensor_turns_is_saturated);
+    RUN_TEST(a_glitch_does_not_hide_what_is_clipped_later);
+    RUN_TEST(an_accelerometer_that_is_read_at_a_lower_rate_is_not_clipped);
+    RUN_TEST(null_is_rejected);
     RUN_TEST(a_specific_force_that_stands_while_the_sensor_rests_is_not_clipped);
     RUN_TEST(standing_below_the_extreme_or_near_zero_is_not_saturation);
     RUN_TEST(a_whole_reading_that_repeats_is_a_lost_packet_then_frozen);

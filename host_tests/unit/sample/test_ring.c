@@ -137,8 +137,8 @@ static void a_slot_is_free_only_after_it_was_given_back(void)
 
 static void counters_that_run_over_lose_nothing(void)
 {
-    inbox.ring.written = UINT32_MAX - 1u; /* 2 years at 50 Hz */
-    inbox.ring.taken = UINT32_MAX - 1u;
+    inbox.ring.written = UINT16_MAX - 1u; /* 22 minutes at 50 Hz */
+    inbox.ring.taken = UINT16_MAX - 1u;
     for (uint32_t k = 0; k < JCAL_INBOX_CAPACITY; ++k) {
         put(k);
     }

@@ -4,6 +4,7 @@
 #ifndef JCAL_PRIVATE_HEADING_H
 #define JCAL_PRIVATE_HEADING_H
 
+#include "jointcal/private/clock.h"
 #include "jointcal/types.h"
 
 #ifdef __cplusplus
@@ -18,7 +19,8 @@ typedef struct {
     bool hinge;
     bool has_time;
     uint64_t t_us;  ///< Time of the last pair.
-    float weight;   ///< Fading sum of time, s.
+    jcal_clock_t clock;
+    float weight;  ///< Fading sum of time, s.
     float sums
         [6];  ///< Fading sums: products of (G_c, G_s, G_1), upper triangle row by row; of a hinge the first two only.
     jcal_heading_t last;

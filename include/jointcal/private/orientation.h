@@ -4,6 +4,7 @@
 #ifndef JCAL_PRIVATE_ORIENTATION_H
 #define JCAL_PRIVATE_ORIENTATION_H
 
+#include "jointcal/private/clock.h"
 #include "jointcal/reject.h"
 #include "jointcal/types.h"
 
@@ -14,7 +15,8 @@ extern "C" {
 /// Checks orientations as jcal_gate_t checks readings, with the same causes and counters; nothing is ever `saturated`.
 /// Caller-owned, plain, copyable; all members are private.
 typedef struct {
-    jcal_orientation_pair_t last;
+    jcal_attitudes_t last;
+    jcal_clock_t clock;
     float still1_s;  ///< How long q1 has not changed by a bit.
     float still2_s;
     uint32_t samples;

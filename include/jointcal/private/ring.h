@@ -14,8 +14,8 @@ extern "C" {
 
 /// Who waits in JCAL_INBOX_CAPACITY slots.
 typedef struct {
-    volatile uint32_t written;  ///< Samples ever put in; written by push only.
-    volatile uint32_t taken;    ///< Samples ever taken out; written by step only.
+    volatile uint16_t written;  ///< Samples ever put in; written by push only.
+    volatile uint16_t taken;    ///< Samples ever taken out; written by step only.
     uint32_t overrun;           ///< Samples that found no room; written by push only.
 } jcal_ring_t;
 

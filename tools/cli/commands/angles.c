@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /* `jointcal angles`: its options, rows in, angles out. */
 #include "commands/commands.h"
+#include "commands/hinge.h"
+#include "commands/two_dof.h"
 #include "input/number.h"
 #include "options/common.h"
 #include "options/values.h"
@@ -24,7 +26,9 @@ enum {
     KEY_SIGNS,
     KEY_TOWARD1,
     KEY_TOWARD2,
-    KEY_POSITIVE
+    KEY_POSITIVE,
+    KEY_ACCEPT,
+    KEY_NAME /* and one more for each column */
 };
 
 typedef struct {
@@ -60,44 +64,22 @@ static const struct argp_option OPTIONS[] = {
      "What counts as positive: flexion or extension, pronation or supination, with a comma between them (default "
      "flexion,pronation, as ISB has it)",
      0},
+    {"accept", KEY_ACCEPT, "WHAT", 0,
+     "ready (default): rows have angles only while the calibration is ready; best: with the best estimate whatever its status, and a "
+     "column bound_deg with how far its axes may be off",
+     0},
+    {"flexion-name", KEY_NAME + ANGLE_FLEXION, "NAME", 0,
+     "Name of the column of flexion in a .sto file, like knee_angle_r (default flexion)", 0},
+    {"pronation-name", KEY_NAME + ANGLE_PRONATION, "NAME", 0, "The same of pronation, like pro_sup_r", 0},
+    {"carrying-name", KEY_NAME + ANGLE_CARRYING, "NAME", 0, "The same of the carrying angle", 0},
+    {"heading-name", KEY_NAME + ANGLE_HEADING, "NAME", 0, "The same of the heading offset", 0},
+    {"bound-name", KEY_NAME + ANGLE_BOUND, "NAME", 0, "The same of the bound, with --accept best", 0},
     {NULL, 0, NULL, 0, NULL, 0}};
-
-/* Numbers with commas between them; returns how many there are, 0 if it is no such list. */
-static size_t list_of_numbers(const char *text, float *values, size_t most)
-{
-    size_t count = 0;
-    char word[32];
-    for (;;) {
-        const size_t length = strcspn(text, ",");
-        if (length >= sizeof word || count == most) {
-            return 0;
-        }
-        memcpy(word, text, length);
-        word[length] = '\0';
-        if (number_to_float(word, &values[count]) != NUMBER_FINITE) {
-            return 0;
-        }
-        count++;
-        if (text[length] == '\0') {
-            return count;
-        }
-        text += length + 1;
-    }
-}
-
-static jcal_vec3_t direction(struct argp_state *state, const char *option, const char *text)
-{
-    float v[3] = {0.0f, 0.0f, 0.0f};
-    if (list_of_numbers(text, v, 3) != 3 || (v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f)) {
-        argp_error(state, "--%s: '%s' is not a direction X,Y,Z", option, text);
-    }
-    return (jcal_vec3_t){v[0], v[1], v[2]};
-}
 
 static jcal_joint_angles_t reference(struct argp_state *state, const char *text)
 {
     float v[2] = {0.0f, 0.0f};
-    if (list_of_numbers(text, v, 2) == 0 || fabsf(v[0]) > 180.0f || fabsf(v[1]) > 180.0f) {
+    if (option_numbers(text, v, 2) == 0 || fabsf(v[0]) > 180.0f || fabsf(v[1]) > 180.0f) {
         argp_error(state, "--reference: '%s' is not one or two angles from -180 to 180 degrees", text);
     }
     return (jcal_joint_angles_t){v[0] * RAD_PER_DEG, v[1] * RAD_PER_DEG, 0.0f};
@@ -151,6 +133,19 @@ static bool is_storage(struct argp_state *state, const char *name)
     return strcmp(end, ".sto") == 0;
 }
 
+/* Names of columns of a storage file, which is read by its tabs. */
+static error_t parse_name(int key, char *argument, struct argp_state *state, angles_options_t *options)
+{
+    if (key < KEY_NAME || key >= KEY_NAME + (int)ANGLE_TABLE_COLUMNS) {
+        return ARGP_ERR_UNKNOWN;
+    }
+    if (argument[0] == '\0' || strpbrk(argument, " \t\r\n,;\"") != NULL) {
+        argp_error(state, "'%s' is no name of a column: it must be one word", argument);
+    }
+    options->table.names[key - KEY_NAME] = argument;
+    return 0;
+}
+
 /* Options that say what the angles count from and what is positive. */
 static error_t parse_table(int key, char *argument, struct argp_state *state, angles_options_t *options)
 {
@@ -171,8 +166,12 @@ static error_t parse_table(int key, char *argument, struct argp_state *state, an
     case KEY_POSITIVE:
         options->table.positive = positive(state, argument);
         return 0;
+    case KEY_ACCEPT:
+        options->source.accept_best = option_one_of_two(state, "accept", argument, "ready", "best") == 1;
+        options->table.has_bound = options->source.accept_best;
+        return 0;
     default:
-        return ARGP_ERR_UNKNOWN;
+        return parse_name(key, argument, state, options);
     }
 }
 
@@ -189,11 +188,11 @@ static error_t parse(int key, char *argument, struct argp_state *state, void *se
         options->calibration = argument;
         return 0;
     case KEY_TOWARD1:
-        options->source.toward1 = direction(state, "axis1-toward", argument);
+        options->source.toward1 = option_direction(state, "axis1-toward", argument);
         options->source.has_toward1 = true;
         return 0;
     case KEY_TOWARD2:
-        options->source.toward2 = direction(state, "axis2-toward", argument);
+        options->source.toward2 = option_direction(state, "axis2-toward", argument);
         options->source.has_toward2 = true;
         return 0;
     default:
@@ -211,6 +210,17 @@ static void check_hinge(struct argp_state *state, const angles_options_t *option
     }
     if (!options->source.hinge && options->source.sign_hint != JCAL_SIGN_UNKNOWN) {
         argp_error(state, "--sign-hint goes with --joint hinge only");
+    }
+}
+
+static void check_names(struct argp_state *state, const angle_table_config_t *table)
+{
+    bool named = false;
+    for (int k = 0; k < ANGLE_TABLE_COLUMNS; k++) {
+        named = named || table->names[k] != NULL;
+    }
+    if (named && !table->sto) {
+        argp_error(state, "--flexion-name and its like go with --out FILE.sto: the columns of CSV have fixed names");
     }
 }
 
@@ -241,6 +251,10 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
     }
     check_hinge(state, options);
     check_table(state, options);
+    check_names(state, &options->table);
+    if (options->calibration != NULL && source->accept_best) {
+        argp_error(state, "--accept best does not go with --calibration, whose axes are ready");
+    }
     if (options->calibration != NULL && (source->max_bound_rad > 0.0f || source->sign_hint != JCAL_SIGN_UNKNOWN)) {
         argp_error(state, "--max-bound and --sign-hint do not go with --calibration");
     }
@@ -262,7 +276,8 @@ static const command_line_t LINE = {
         "heading of its own. Else the filter VQF finds them.\n"
         "\n"
         "Columns written: t_s, flexion_deg; with two axes also pronation_deg, carrying_deg, heading_offset_deg. There is "
-        "a row for each row of the recording; its angles are empty while the calibration is not ready. A .sto file "
+        "a row for each row of the recording; its angles are empty while the calibration is not ready. Flexion and pronation go on beyond "
+        "180 degrees instead of jumping by 360. A .sto file "
         "holds only rows with angles.\n"
         "\n"
         "Exit status: 0 angles at the end; 3 read to the end but without angles there; 2 the command line or a file "
@@ -281,6 +296,9 @@ static const command_line_t LINE = {
 
 /* ---- The command ---- */
 
+/* Findings of the recording change slowly. */
+#define LOOK_EVERY_ROWS 100u
+
 /* Everything of one run; too big for comfort on the stack. */
 typedef struct {
     angles_options_t options;
@@ -288,6 +306,8 @@ typedef struct {
     orientations_t orientations;
     angle_source_t source;
     angle_table_t table;
+    uint64_t rows;
+    check_findings_t findings; /* of the recording as a whole */
 } session_t;
 
 static exit_status_t refused(void)
@@ -296,13 +316,51 @@ static exit_status_t refused(void)
     return EXIT_TROUBLE;
 }
 
+/* Asks now and then whether the recording as a whole may be used. */
+static bool is_refused(session_t *session)
+{
+    if (session->rows % LOOK_EVERY_ROWS == 0) {
+        check_findings(&session->reading.recording.check, &session->findings);
+    }
+    session->rows++;
+    return session->findings.refuses;
+}
+
+/* Why there are no angles, or none at the end; and what else there is to say of the recording. On standard error. */
+static void tell(const session_t *session)
+{
+    const angle_source_t *source = &session->source;
+    const check_findings_t *findings = &session->findings;
+    const char *name = session->reading.input.name;
+    report_t report = {.words = session->options.source.hinge ? &HINGE_WORDS : &TWO_DOF_WORDS,
+                       .head = source->head,
+                       .findings = *findings};
+    size_t told = 0;
+    if (source->rows == 0) {
+        report_apply_findings(&report);
+        const char *reason = source->given ? NULL : report_reason(&report);
+        const char *help = (reason != NULL && !findings->explains) ? report_help(&report) : NULL;
+        if (findings->explains) {
+            reason = findings->sentences[0];
+            told = 1;
+        }
+        complain(name, 0, 0, "no row has angles: %s%s%s",
+                 (reason != NULL) ? reason : "the heading is not known in any row",
+                 (help != NULL) ? "; what would help: " : "", (help != NULL) ? help : "");
+    }
+    const bool matters = source->rows == 0 || !source->at_end || findings->refuses;
+    for (size_t k = told; matters && k < findings->count; k++) {
+        complain(name, 0, 0, "%s", findings->sentences[k]);
+    }
+}
+
 static exit_status_t run_rows(session_t *session)
 {
     oriented_row_t row;
     recording_event_t event = orientations_next(&session->orientations, &row);
     for (; event == RECORDING_ROW; event = orientations_next(&session->orientations, &row)) {
         angles_row_t out;
-        if (!angle_source_row(&session->source, &row, &out)) {
+        if (!angle_source_row(&session->source, &row, is_refused(session), &out)) {
             return refused();
         }
         const exit_status_t status = angle_table_row(&session->table, &out);
@@ -315,6 +373,8 @@ static exit_status_t run_rows(session_t *session)
         return reading_give_up(&session->reading, event);
     }
     progress_clear(&session->reading.progress);
+    check_findings(&session->reading.recording.check, &session->findings);
+    tell(session);
     const exit_status_t status = angle_table_end(&session->table);
     if (status != EXIT_READY) {
         return status;
@@ -328,6 +388,8 @@ static exit_status_t run_recording(session_t *session)
     if (event != RECORDING_ROW) {
         return reading_give_up(&session->reading, event);
     }
+    session->reading.recording.check.times_only = session->orientations.source == ORIENTATIONS_FROM_COLUMNS &&
+                                                  (session->source.given || !session->options.source.hinge);
     exit_status_t status = angle_table_open(&session->table, &session->options.table);
     if (status == EXIT_READY) {
         reading_begin(&session->reading);

@@ -7,6 +7,7 @@
 int angles_command(int argc, char **argv);
 int center_command(int argc, char **argv);
 int chain_command(int argc, char **argv);
+int check_command(int argc, char **argv);
 int hinge_command(int argc, char **argv);
 int stream_command(int argc, char **argv);
 int two_dof_command(int argc, char **argv);

@@ -101,7 +101,7 @@ static const jcal_head_t *get(void *self)
 
 /* ---- What is written ---- */
 
-static const report_words_t WORDS = {
+const report_words_t HINGE_WORDS = {
     .name = "Hinge",
     .misfit = "no hinge explains the data: another kind of joint, or sensors that share none",
     .ambiguous = "other axes explain the data about equally",
@@ -166,7 +166,7 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 
 /* ---- The command ---- */
 
-static const calibrate_joint_t HINGE = {.words = &WORDS,
+static const calibrate_joint_t HINGE = {.words = &HINGE_WORDS,
                                         .uses_readings = true,
                                         .push = push,
                                         .get = get,

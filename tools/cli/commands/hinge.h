@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// The keys of a hinge, which the hub's estimates have too.
+/// Words and keys of a hinge; the hub's estimates have the keys too.
 #ifndef JCAL_CLI_COMMANDS_HINGE_H
 #define JCAL_CLI_COMMANDS_HINGE_H
 
 #include "output/json.h"
+#include "output/report.h"
 
 #include "jointcal/hinge.h"
+
+/// Words for a hinge.
+extern const report_words_t HINGE_WORDS;
 
 /// Writes the keys that only a hinge has.
 void hinge_write_keys(json_t *json, const jcal_hinge_result_t *result);

@@ -17,6 +17,9 @@
 /* The hub's time of the first row that has one, as in `jointcal hinge`. */
 #define ORIGIN_US ((uint64_t)1 << 62)
 
+/* Rows that can be under way to the hub; more than any credit. */
+#define ROWS_UNDER_WAY 256u
+
 /* ---- Options ---- */
 
 enum { KEY_TO = OPTION_OWN, KEY_BAUD, KEY_SPEED, KEY_TIMEOUT, KEY_COUNTERS };
@@ -106,11 +109,23 @@ typedef struct {
     stream_options_t options;
     reading_t reading;
     hub_session_t hub;
+    recording_row_t under_way[ROWS_UNDER_WAY]; /* rows that the hub has not told of yet */
+    uint64_t sent;
+    uint64_t answered;
+    check_t check; /* of the rows that the hub has told of, so that lines are those of `jointcal hinge` */
     bool output_failed;
     bool has_start;
     int64_t start_us; /* first time in the file */
     int64_t began_us; /* by the clock, when that row was sent */
 } session_t;
+
+/* Shows the rows that the hub has told of to the check. */
+static void check_answered(session_t *session, uint64_t until)
+{
+    for (; session->answered < until && session->answered < session->sent; session->answered++) {
+        recording_watch(&session->check, &session->under_way[session->answered % ROWS_UNDER_WAY], false);
+    }
+}
 
 /* A hub_event_t. Each event is flushed, so that readers of a pipe get it at once. */
 static void emit(void *context, const char *event, const message_estimate_t *estimate)
@@ -119,8 +134,12 @@ static void emit(void *context, const char *event, const message_estimate_t *est
     report_t report = {.head = estimate->result.head,
                        .clock.has_time = estimate->now_us != MESSAGE_TIME_UNKNOWN,
                        .clock.t_us = (int64_t)(estimate->now_us - ORIGIN_US + (uint64_t)session->start_us)};
-    check_findings(&session->reading.recording.check, &report.findings);
+    check_answered(session, report.head.samples);
+    check_findings(&session->check, &report.findings);
     report_apply_findings(&report);
+    if (strcmp(event, "ready") == 0 && report.head.status != JCAL_READY) {
+        return; /* the hub cannot know what is wrong with the recording as a whole */
+    }
     progress_clear(&session->reading.progress);
     json_t json = report_json_begin(stdout, event, &report);
     hinge_write_keys(&json, &estimate->result);
@@ -165,6 +184,11 @@ static exit_status_t send_row(session_t *session, const recording_row_t *row)
         pair.t_us = ORIGIN_US + (uint64_t)row->t_us - (uint64_t)session->start_us;
         status = wait_due(session, row->t_us);
     }
+    if (session->sent - session->answered == ROWS_UNDER_WAY) {
+        check_answered(session, session->answered + 1);
+    }
+    session->under_way[session->sent % ROWS_UNDER_WAY] = *row;
+    session->sent++;
     status = (status == EXIT_READY) ? hub_session_send(&session->hub, &pair) : status;
     return (status == EXIT_READY && session->output_failed) ? output_trouble(session) : status;
 }
@@ -176,12 +200,15 @@ static exit_status_t finish(session_t *session)
     if (status != EXIT_READY) {
         return status;
     }
+    check_answered(session, session->sent);
     emit(session, "end", &session->hub.estimate);
     if (session->output_failed) {
         return output_trouble(session);
     }
     hub_session_tell_counters(&session->hub, session->options.counters);
-    return (session->hub.estimate.result.head.status == JCAL_READY) ? EXIT_READY : EXIT_NOT_READY;
+    check_findings_t findings;
+    check_findings(&session->check, &findings);
+    return (session->hub.estimate.result.head.status == JCAL_READY && !findings.refuses) ? EXIT_READY : EXIT_NOT_READY;
 }
 
 static exit_status_t run_rows(session_t *session)

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* `jointcal two-dof`: its options, its engines, what it writes. */
+#include "commands/two_dof.h"
+
 #include "commands/commands.h"
 #include "options/values.h"
 #include "run/calibrate.h"
@@ -181,7 +183,7 @@ static const jcal_head_t *get(void *self)
 
 /* ---- What is written ---- */
 
-static const report_words_t WORDS = {
+const report_words_t TWO_DOF_WORDS = {
     .name = "Joint with two axes",
     .misfit = "no joint with two axes explains the data: another kind of joint, or sensors that share none",
     .ambiguous = "other axes or headings explain the data about equally",
@@ -262,7 +264,7 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 
 /* ---- The command ---- */
 
-static const calibrate_joint_t TWO_DOF = {.words = &WORDS,
+static const calibrate_joint_t TWO_DOF = {.words = &TWO_DOF_WORDS,
                                           .push = push,
                                           .reset = reset,
                                           .get = get,

@@ -70,6 +70,43 @@ static bool to_float(const char *word, float *value)
     return number_to_float(word, value) == NUMBER_FINITE;
 }
 
+/* Skips a string with anything in it. */
+static bool skip_string(text_t *text)
+{
+    if (!take(text, '"')) {
+        return false;
+    }
+    while (*text->at != '"' && *text->at != '\0') {
+        text->at += (text->at[0] == '\\' && text->at[1] != '\0') ? 2 : 1;
+    }
+    return take(text, '"');
+}
+
+/* Skips a list of sentences, which may be empty. */
+static bool skip_sentences(text_t *text)
+{
+    if (!take(text, '[')) {
+        return false;
+    }
+    if (take(text, ']')) {
+        return true;
+    }
+    do {
+        if (!skip_string(text)) {
+            return false;
+        }
+    } while (take(text, ','));
+    return take(text, ']');
+}
+
+/* True if what comes next is a list of sentences and not of numbers. */
+static bool sentences_next(const text_t *text)
+{
+    const char *at = text->at + 1;
+    at += strspn(at, " \t");
+    return *at == '"' || *at == ']';
+}
+
 /* Takes `[1, 2, 3]`, any count; keeps the first three. */
 static bool take_numbers(text_t *text, float values[static 3], size_t *count)
 {
@@ -121,7 +158,7 @@ static bool take_value(text_t *text, value_t *value)
     case '"':
         return take_string(text, value->word);
     case '[':
-        return take_numbers(text, value->numbers, &value->count);
+        return sentences_next(text) ? skip_sentences(text) : take_numbers(text, value->numbers, &value->count);
     case '{':
         return take_counts(text);
     default:

@@ -22,7 +22,7 @@ typedef struct {
 } calibration_t;
 
 /// Longest line in bytes, far longer than any that this program writes.
-#define CALIBRATION_LINE_MAX 4096
+#define CALIBRATION_LINE_MAX 8192
 
 /// Reads one line. Returns null, or what is wrong with it.
 const char *calibration_parse(const char *line, calibration_t *calibration);

@@ -72,6 +72,7 @@ static void say_same(const check_t *check, check_findings_t *findings)
             say(findings, "the %s of sensor %d are those of sensor %d: the same sensor was written twice", what,
                 PAIRS[k][1] + 1, PAIRS[k][0] + 1);
             findings->refuses = true;
+            findings->reason = JCAL_REASON_BAD_SAMPLES;
         }
     }
 }
@@ -142,6 +143,23 @@ static void say_acc_unit(check_findings_t *findings, int sensor, double gravity)
         sensor, gravity);
 }
 
+static jcal_reason_t reason_of(check_sensor_fault_t fault)
+{
+    switch (fault) {
+    case CHECK_SENSOR_RATE_UNIT:
+        return JCAL_REASON_WRONG_UNITS_GYR;
+    case CHECK_SENSOR_ACC_UNIT:
+        return JCAL_REASON_WRONG_UNITS_ACC;
+    case CHECK_SENSOR_FRAMES:
+    case CHECK_SENSOR_TURNS_BACK:
+    case CHECK_SENSOR_RATES:
+    case CHECK_SENSOR_NO_GRAVITY:
+    case CHECK_SENSOR_FINE:
+    default:
+        return JCAL_REASON_BAD_SAMPLES;
+    }
+}
+
 static void say_sensor(const check_sensor_t *sensor, int number, check_findings_t *findings)
 {
     const check_sensor_verdict_t verdict = check_sensor_verdict(sensor);
@@ -177,6 +195,9 @@ static void say_sensor(const check_sensor_t *sensor, int number, check_findings_
         return;
     }
     findings->refuses = true;
+    if (findings->reason == JCAL_REASON_NONE || findings->reason == JCAL_REASON_BAD_SAMPLES) {
+        findings->reason = reason_of(verdict.fault);
+    }
 }
 
 /* How often a reading comes, for all sensors that share it. */
@@ -196,8 +217,8 @@ static void say_held(check_findings_t *findings, const char *what, const int tim
             }
         }
         say(findings,
-            "each reading of the %s comes %d times (sensor %s): it is held between new ones, which is no fault", what,
-            times[k], names);
+            "each reading of the %s comes %d times (sensor%s %s): it is held between new ones, which is no fault", what,
+            times[k], (strlen(names) > 1) ? "s" : "", names);
     }
 }
 
@@ -244,10 +265,26 @@ void check_findings(const check_t *check, check_findings_t *findings)
         say_sensors(check, findings);
     }
     findings->explains = findings->count > 0;
+    if (findings->reason == JCAL_REASON_NONE || times_explain) {
+        findings->reason = JCAL_REASON_BAD_SAMPLES;
+    }
     if (!times_explain) {
         say_times(check, findings);
     }
     if (!check->times_only) {
         say_remarks(check, findings);
+    }
+}
+
+void check_measures(const check_t *check, check_measures_t *measures)
+{
+    memset(measures, 0, sizeof *measures);
+    measures->step_s = check_time_step_s(&check->times);
+    measures->out_of_order = check_time_out_of_order(&check->times);
+    for (int k = 0; k < CHECK_SENSORS; k++) {
+        const check_sensor_verdict_t verdict = check_sensor_verdict(&check->sensors[k]);
+        measures->gravity_m_s2[k] = verdict.gravity;
+        measures->gravity_turns[k] = verdict.scale;
+        measures->gravity_fit[k] = verdict.fit;
     }
 }

@@ -11,6 +11,8 @@
 #include "input/check_sensor.h"
 #include "input/check_time.h"
 
+#include "jointcal/status.h"
+
 #define CHECK_SENSORS 3
 #define CHECK_PAIRS 3
 
@@ -39,8 +41,9 @@ typedef struct {
 } check_t;
 
 typedef struct {
-    bool refuses;   ///< Nothing may be called ready.
-    bool explains;  ///< The first sentence says why it is not.
+    bool refuses;          ///< Nothing may be called ready.
+    bool explains;         ///< The first sentence says why it is not ...
+    jcal_reason_t reason;  ///< ... and this is the library's word for it.
     size_t count;
     sentence_t sentences[CHECK_SENTENCES];
 } check_findings_t;
@@ -50,5 +53,17 @@ void check_push(check_t *check, const check_row_t *row);
 
 /// What there is to say of the rows so far.
 void check_findings(const check_t *check, check_findings_t *findings);
+
+/// What was measured on the way.
+typedef struct {
+    double step_s;  ///< Usual time from row to row; 0 if it is not known.
+    uint64_t out_of_order;
+    double gravity_m_s2[CHECK_SENSORS];  ///< What gravity is in the accelerations; 0 if it is not known.
+    double
+        gravity_turns[CHECK_SENSORS];   ///< How many times as fast as the rates gravity turns; 0 if it is not known ...
+    double gravity_fit[CHECK_SENSORS];  ///< ... and how much of its changes that explains, 0 to 1.
+} check_measures_t;
+
+void check_measures(const check_t *check, check_measures_t *measures);
 
 #endif

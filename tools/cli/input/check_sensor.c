@@ -35,6 +35,7 @@
 #define STEADY_LEAST 0.8
 #define STEADY_MOST 1.25
 #define STEADY_SHARE 0.7
+#define ENOUGH_STEADY 50u
 
 /* Without gravity the mean over two seconds is far below what the sensor feels: 0.15 of it, against 0.66 and more with gravity ... */
 #define NO_GRAVITY_SHARE 0.4
@@ -58,7 +59,7 @@ static bool is_finite(const jcal_imu_t *imu)
 
 static bool equal(jcal_vec3_t a, jcal_vec3_t b)
 {
-    return memcmp(&a, &b, sizeof a) == 0;
+    return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
 static void count_held(check_sensor_t *sensor, const jcal_imu_t *imu)
@@ -188,6 +189,7 @@ static void judge_frames(const check_sensor_t *sensor, check_sensor_verdict_t *v
         return;
     }
     verdict->scale = frames.scale_as_is;
+    verdict->fit = fmax(frames.fit_as_is, 0.0);
     if (frames.fit_as_is > FRAMES_FIT) {
         verdict->fault = about_one(frames.scale_as_is) ? CHECK_SENSOR_FINE : CHECK_SENSOR_RATE_UNIT;
         return;
@@ -216,11 +218,13 @@ static void judge_gravity(const check_sensor_t *sensor, check_sensor_verdict_t *
     const bool rates_fit =
         verdict->fault == CHECK_SENSOR_FINE && histogram_quantile(&sensor->rate, 0.5) < RATE_PLAUSIBLE;
     verdict->gravity = (rates_fit && !steady) ? histogram_quantile(&sensor->gravity, 0.5) : usual;
-    if (sensor->gravity.count < ENOUGH_WINDOWS || verdict->fault != CHECK_SENSOR_FINE) {
+    const bool enough = sensor->gravity.count >= ENOUGH_WINDOWS || (steady && sensor->acc.count >= ENOUGH_STEADY);
+    if (!enough || verdict->fault != CHECK_SENSOR_FINE) {
         return;
     }
     if (verdict->gravity > GRAVITY_LEAST && verdict->gravity < GRAVITY_MOST) {
-        verdict->fault = (steady && share < STEADY_SHARE) ? CHECK_SENSOR_RATES : CHECK_SENSOR_FINE;
+        verdict->fault = (steady && sensor->share.count >= ENOUGH_WINDOWS && share < STEADY_SHARE) ? CHECK_SENSOR_RATES
+                                                                                                   : CHECK_SENSOR_FINE;
         return;
     }
     const bool none = rates_fit && scatter < NO_GRAVITY_SCATTER && share < NO_GRAVITY_SHARE;

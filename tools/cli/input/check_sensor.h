@@ -50,8 +50,9 @@ typedef enum {
 
 typedef struct {
     check_sensor_fault_t fault;
-    double scale;
-    double gravity;
+    double scale;    ///< 0 if it is not known.
+    double fit;      ///< How much of the changes of gravity the rates explain with that scale.
+    double gravity;  ///< 0 if it is not known.
     bool way_known;  ///< With CHECK_SENSOR_FRAMES: one way to read the accelerations fits, and only one.
     int column[3];   ///< That way: which of their columns is x, y, z, and with which sign.
     int sign[3];

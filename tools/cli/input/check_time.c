@@ -18,6 +18,9 @@
 /* A clock that runs for so long below an earlier time was set back; before that, rows are only out of order. */
 #define SET_BACK_S 1.0
 
+/* Fewer rows out of order than this, or than one in a hundred, explain nothing. */
+#define OUT_OF_ORDER 3u
+
 /* A jump forward of at least so much, followed within so many rows by one back, is not a clock that was set but a few wild times. */
 #define JUMP_S 10.0
 #define JUMP_ROWS 3u
@@ -81,8 +84,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Usual time from row to row; 0 while it is not known. */
-static double usual_step_s(const check_time_t *times)
+double check_time_step_s(const check_time_t *times)
 {
     double steps[CHECK_TIME_STEPS];
     memcpy(steps, times->steps_s, sizeof steps);
@@ -90,8 +92,7 @@ static double usual_step_s(const check_time_t *times)
     return (times->step_count < ENOUGH_STEPS) ? 0.0 : steps[times->step_count / 2];
 }
 
-/* Rows that are out of order, with those that may still turn out to be so. */
-static uint64_t all_out_of_order(const check_time_t *times)
+uint64_t check_time_out_of_order(const check_time_t *times)
 {
     return times->out_of_order + times->below;
 }
@@ -127,14 +128,14 @@ static bool wrong_unit(double step_s)
 
 bool check_time_explains(const check_time_t *times)
 {
-    return stands(times) || wrong_unit(usual_step_s(times)) || times->set_back > 0 ||
-           100 * all_out_of_order(times) > times->rows;
+    return stands(times) || wrong_unit(check_time_step_s(times)) || times->set_back > 0 ||
+           (check_time_out_of_order(times) >= OUT_OF_ORDER && 100 * check_time_out_of_order(times) > times->rows);
 }
 
 size_t check_time_sentences(const check_time_t *times, sentence_t *sentences, size_t most)
 {
     size_t count = 0;
-    const double step_s = usual_step_s(times);
+    const double step_s = check_time_step_s(times);
     if (stands(times) && count < most) {
         (void)snprintf(sentences[count++], SENTENCE_MAX,
                        "%" PRIu64 " of %" PRIu64
@@ -144,15 +145,14 @@ size_t check_time_sentences(const check_time_t *times, sentence_t *sentences, si
         (void)snprintf(sentences[count++], SENTENCE_MAX, "rows are %.6g s apart; t_s is in seconds%s", step_s,
                        unit_words(step_s));
     }
-    const uint64_t out_of_order = all_out_of_order(times);
+    const uint64_t out_of_order = check_time_out_of_order(times);
     if (out_of_order > 0 && count < most) {
-        (void)snprintf(sentences[count++], SENTENCE_MAX, "%" PRIu64 " rows out of order: sort by t_s, or give --sort",
-                       out_of_order);
+        (void)snprintf(sentences[count++], SENTENCE_MAX, "%" PRIu64 " row%s out of order: sort by t_s, or give --sort",
+                       out_of_order, (out_of_order == 1) ? "" : "s");
     }
     if (times->ahead > 0 && count < most) {
         (void)snprintf(sentences[count++], SENTENCE_MAX,
-                       "%" PRIu64 " rows have a time far ahead of those before and after: their t_s is wrong",
-                       times->ahead);
+                       "%" PRIu64 " times are far ahead of those before and after: that t_s is wrong", times->ahead);
     }
     if (times->set_back > 0 && count < most) {
         (void)snprintf(sentences[count++], SENTENCE_MAX,

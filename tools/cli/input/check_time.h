@@ -37,6 +37,12 @@ typedef struct {
 /// Takes in the time of a row as it stands in the file, which may be in any unit.
 void check_time_push(check_time_t *times, double t_s);
 
+/// Usual time from row to row; 0 while it is not known.
+double check_time_step_s(const check_time_t *times);
+
+/// Rows that are out of order, with those that may still turn out to be so.
+uint64_t check_time_out_of_order(const check_time_t *times);
+
 /// True if the times alone explain that a calibration is not ready: not for a few rows out of order.
 bool check_time_explains(const check_time_t *times);
 

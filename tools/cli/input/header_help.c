@@ -38,6 +38,16 @@ __attribute__((format(printf, 2, 3))) static void add(char text[static HEADER_HE
     va_end(arguments);
 }
 
+/* Begins a new word, unless one has just begun. */
+static size_t part(char *plain, size_t length)
+{
+    if (length == 0 || plain[length - 1] == ' ') {
+        return length;
+    }
+    plain[length] = ' ';
+    return length + 1;
+}
+
 /* Letters and digits in lower case; words apart by one blank, digits too: "Gyr1_X" is "gyr 1 x". */
 static void simplify(const char *name, char plain[static 64])
 {
@@ -45,20 +55,13 @@ static void simplify(const char *name, char plain[static 64])
     bool digit = false;
     for (const char *at = name; *at != '\0' && length < 61; at++) {
         const unsigned char c = (unsigned char)*at;
-        if (!isalnum(c)) {
-            if (length > 0 && plain[length - 1] != ' ') {
-                plain[length++] = ' ';
-            }
-            continue;
+        if (isalnum(c) == 0 || (isdigit(c) != 0) != digit) {
+            length = part(plain, length);
         }
-        if (length > 0 && plain[length - 1] != ' ' && (isdigit(c) != 0) != digit) {
-            plain[length++] = ' ';
+        if (isalnum(c) != 0) {
+            digit = isdigit(c) != 0;
+            plain[length++] = (char)tolower(c);
         }
-        digit = isdigit(c) != 0;
-        plain[length++] = (char)tolower(c);
-    }
-    while (length > 0 && plain[length - 1] == ' ') {
-        length--;
     }
     plain[length] = '\0';
 }
@@ -304,13 +307,12 @@ static bool later_header(csv_t *csv, const header_names_t *names, bool note, cha
     }
     const unsigned long before = (unsigned long)csv->cells[0].line - 1;
     const char *whose = maker(csv);
-    if (before == 1 && note) {
+    if (whose != NULL) {
+        add(text, "this is %s, with %lu lines before the header line, which must come first", whose, before);
+    } else if (before == 1 && note) {
         add(text, "'%s' is a note for spreadsheets, not the header line: take this line out", found);
     } else {
         add(text, "the header line must come first, and here %lu lines stand before it: take them out", before);
-    }
-    if (whose != NULL) {
-        add(text, "; this is %s", whose);
     }
     if (count_known(csv, names) < 3) {
         describe(text, has);

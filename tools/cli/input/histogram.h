@@ -38,7 +38,8 @@ static inline double histogram_quantile(const histogram_t *histogram, double sha
         below += histogram->bins[bin];
         bin++;
     }
-    return exp2(((bin + 0.5) / HISTOGRAM_PER_OCTAVE) + HISTOGRAM_LOWEST);
+    const double inside = (histogram->bins[bin] > 0) ? (wanted - below) / histogram->bins[bin] : 0.5;
+    return exp2(((bin + inside) / HISTOGRAM_PER_OCTAVE) + HISTOGRAM_LOWEST);
 }
 
 #endif

@@ -177,6 +177,10 @@ static recording_event_t wait_for_period(orientations_t *self)
 
 #endif
 
+/* Rows without orientations: weight of the newest in their share, and what may be lived with; as the library's own gate. */
+#define MISSING_STEP 0.02f
+#define MISSING_SHARE_MAX 0.2f
+
 static bool finite_imu(const jcal_imu_t *imu)
 {
     return jcal_vec3_is_finite(imu->gyr_rad_s) && jcal_vec3_is_finite(imu->acc_m_s2);
@@ -187,13 +191,14 @@ static bool finite_quat(jcal_quat_t q)
     return isfinite(q.w) && isfinite(q.x) && isfinite(q.y) && isfinite(q.z);
 }
 
-/* The library checks the orientations themselves. */
-static void check_row(oriented_row_t *out)
+/* The library checks the orientations themselves; of rows that have none it never hears, so these are counted here. */
+static void check_row(orientations_t *self, oriented_row_t *out)
 {
     const recording_row_t *row = &out->row;
     const bool finite = row->has_time && finite_imu(&row->imu1) && finite_imu(&row->imu2) && finite_imu(&row->imu3) &&
                         finite_quat(row->q1) && finite_quat(row->q2) && finite_quat(row->q3);
     out->reject = finite ? JCAL_REJECT_NONE : JCAL_REJECT_NOT_FINITE;
+    self->missing_share += MISSING_STEP * ((finite ? 0.0f : 1.0f) - self->missing_share);
 }
 
 recording_event_t orientations_open(orientations_t *self, recording_t *recording)
@@ -227,7 +232,7 @@ recording_event_t orientations_next(orientations_t *self, oriented_row_t *row)
     *row = (oriented_row_t){.reject = JCAL_REJECT_NONE, .restarted = false};
     if (self->source == ORIENTATIONS_FROM_COLUMNS) {
         const recording_event_t event = recording_next(self->recording, &row->row);
-        check_row(row);
+        check_row(self, row);
         return event;
     }
     if (!self->waited) {
@@ -245,6 +250,9 @@ recording_event_t orientations_next(orientations_t *self, oriented_row_t *row)
 
 jcal_reason_t orientations_complaint(const orientations_t *self)
 {
+    if (self->missing_share > MISSING_SHARE_MAX) {
+        return JCAL_REASON_BAD_SAMPLES;
+    }
     const jcal_reason_t complaint = jcal_gate_complaint(&self->gate);
     return (complaint != JCAL_REASON_NONE) ? complaint : jcal_gate_complaint(&self->gate3);
 }

@@ -50,6 +50,7 @@ typedef struct {
     jcal_gate_t gate;
     jcal_gate_t gate3; /* of sensors 1 and 3, if there are three */
     jcal_gate_config_t gate_config;
+    float missing_share; /* of rows without orientations in the columns, averaged over about 50 rows */
     row_clock_t clock;
     int64_t period_us;
     int64_t fed_us; /* time in the file of what the filters got last */

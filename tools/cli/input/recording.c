@@ -127,6 +127,11 @@ static recording_event_t read_header(recording_t *recording)
     return check_missing(recording, 0, RECORDING_COLUMNS);
 }
 
+bool recording_has_third(const recording_t *recording)
+{
+    return all_found(recording, FIRST_THIRD, FIRST_THIRD_ORIENTATION);
+}
+
 recording_event_t recording_want_third(recording_t *recording)
 {
     recording->want_third = true;
@@ -154,12 +159,12 @@ static recording_event_t check_length(recording_t *recording)
     return RECORDING_ROW;
 }
 
-/* No cell of our columns holds a number. */
+/* No cell of our columns begins like a number. */
 static bool all_text(const recording_t *recording)
 {
     for (size_t k = 0; k < RECORDING_COLUMNS; k++) {
-        float value = 0.0f;
-        if (number_to_float(recording->csv.cells[recording->index[k]].text, &value) == NUMBER_FINITE) {
+        const char *text = recording->csv.cells[recording->index[k]].text;
+        if (text[0] == '\0' || strchr("+-.0123456789", text[0]) != NULL) {
             return false;
         }
     }
@@ -246,14 +251,13 @@ static bool is_wanted(const recording_t *recording, size_t column)
     return recording->want_third && (column < FIRST_THIRD_ORIENTATION || recording->want_orientations);
 }
 
-/* Shows the row to those who judge the recording as a whole. */
-static void watch(recording_t *recording, const recording_row_t *row)
+void recording_watch(check_t *check, const recording_row_t *row, bool third)
 {
     const check_row_t shown_row = {.t_s = row->t_s,
                                    .has_time = row->has_time,
                                    .t_us = row->t_us,
-                                   .imu = {&row->imu1, &row->imu2, recording->want_third ? &row->imu3 : NULL}};
-    check_push(&recording->check, &shown_row);
+                                   .imu = {&row->imu1, &row->imu2, third ? &row->imu3 : NULL}};
+    check_push(check, &shown_row);
 }
 
 static recording_event_t read_row(recording_t *recording, recording_row_t *row)
@@ -364,7 +368,7 @@ recording_event_t recording_next(recording_t *recording, recording_row_t *row)
 {
     const recording_event_t event = next_row(recording, row);
     if (event == RECORDING_ROW) {
-        watch(recording, row);
+        recording_watch(&recording->check, row, recording->want_third);
     }
     return event;
 }

@@ -74,6 +74,9 @@ recording_event_t recording_open(recording_t *recording, csv_read_t *read, void 
 /// Asks for rows in the order of their times; those without one come last. All of them are held in memory.
 void recording_want_sorted(recording_t *recording);
 
+/// True if the header names a third sensor's columns.
+bool recording_has_third(const recording_t *recording);
+
 /// Asks for the third sensor. RECORDING_BAD if its columns are missing, else RECORDING_ROW. Between open and all others only.
 recording_event_t recording_want_third(recording_t *recording);
 
@@ -86,6 +89,9 @@ __attribute__((format(printf, 2, 3))) recording_event_t recording_refuse(recordi
 
 /// Reads one row.
 recording_event_t recording_next(recording_t *recording, recording_row_t *row);
+
+/// Shows a row to a check, as recording_next does to the recording's own.
+void recording_watch(check_t *check, const recording_row_t *row, bool third);
 
 /// Releases memory.
 void recording_close(recording_t *recording);

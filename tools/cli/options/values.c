@@ -63,3 +63,34 @@ uint16_t option_sample_count(struct argp_state *state, const char *text, int lea
     }
     return (uint16_t)value;
 }
+
+size_t option_numbers(const char *text, float *values, size_t most)
+{
+    size_t count = 0;
+    char word[32];
+    for (;;) {
+        const size_t length = strcspn(text, ",");
+        if (length >= sizeof word || count == most) {
+            return 0;
+        }
+        memcpy(word, text, length);
+        word[length] = '\0';
+        if (number_to_float(word, &values[count]) != NUMBER_FINITE) {
+            return 0;
+        }
+        count++;
+        if (text[length] == '\0') {
+            return count;
+        }
+        text += length + 1;
+    }
+}
+
+jcal_vec3_t option_direction(struct argp_state *state, const char *option, const char *text)
+{
+    float v[3] = {0.0f, 0.0f, 0.0f};
+    if (option_numbers(text, v, 3) != 3 || (v[0] == 0.0f && v[1] == 0.0f && v[2] == 0.0f)) {
+        argp_error(state, "--%s: '%s' is not a direction X,Y,Z", option, text);
+    }
+    return (jcal_vec3_t){v[0], v[1], v[2]};
+}

@@ -4,6 +4,8 @@
 #ifndef JCAL_CLI_OPTIONS_VALUES_H
 #define JCAL_CLI_OPTIONS_VALUES_H
 
+#include "jointcal/types.h"
+
 #include <argp.h>
 #include <stdint.h>
 
@@ -26,5 +28,11 @@ float option_not_negative(struct argp_state *state, const char *option, const ch
 
 /// Value of --n-max: a whole number above zero. `least` and `most` are for the message; the engine's config says what it takes.
 uint16_t option_sample_count(struct argp_state *state, const char *text, int least, int most);
+
+/// Numbers with commas between them, `most` at the most; returns how many there are, 0 if it is no such list.
+size_t option_numbers(const char *text, float *values, size_t most);
+
+/// A direction X,Y,Z, not zero.
+jcal_vec3_t option_direction(struct argp_state *state, const char *option, const char *text);
 
 #endif

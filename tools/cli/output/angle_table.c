@@ -3,12 +3,17 @@
 #include "output/angle_table.h"
 
 #include "output/json.h"
+#include "output/part_file.h"
 
 #include <errno.h>
 #include <inttypes.h>
+#include <math.h>
 #include <string.h>
 
 #define DEG_PER_RAD 57.2957795f
+
+/* Axes that may be off by more than this are still being sought: what jumps with them is no turn. */
+#define FOLLOW_BOUND_RAD 0.2f
 
 static exit_status_t failed(const angle_table_t *table)
 {
@@ -33,37 +38,75 @@ static jcal_joint_angles_t finish(const angle_table_t *table, const jcal_joint_a
                                  DEG_PER_RAD * angles.carrying_rad};
 }
 
-static void write_row(const angle_table_t *table, const angles_row_t *row)
+/* The turn of an angle that is nearest to the one before: a series has no jumps of a full turn. */
+static float follow(float angle_deg, float before_deg)
 {
-    const char separator = table->config->sto ? '\t' : ',';
+    return angle_deg + (360.0f * roundf((before_deg - angle_deg) / 360.0f));
+}
+
+/* True of the columns that this table has. */
+static bool has_column(const angle_table_config_t *config, int column)
+{
+    if (column == ANGLE_BOUND) {
+        return config->has_bound;
+    }
+    return column == ANGLE_FLEXION || !config->hinge;
+}
+
+static void write_row(angle_table_t *table, const angles_row_t *row)
+{
+    const angle_table_config_t *config = table->config;
     char buffer[32];
     FILE *file = table->file;
     (void)fputs(row->has_time ? time_text(row->t_us, buffer) : "", file);
-    if (!row->known) {
-        (void)fputs(table->config->hinge ? ",\n" : ",,,,\n", file);
-        return;
+    jcal_joint_angles_t angles = {0.0f, 0.0f, 0.0f};
+    if (row->known) {
+        angles = finish(table, &row->angles);
+        if (table->has_last) {
+            angles.flexion_rad = follow(angles.flexion_rad, table->last_deg.flexion_rad);
+            angles.pronation_rad = follow(angles.pronation_rad, table->last_deg.pronation_rad);
+        }
+        table->last_deg = angles;
+        table->has_last = row->bound_rad < FOLLOW_BOUND_RAD;
     }
-    const jcal_joint_angles_t angles = finish(table, &row->angles);
-    (void)fprintf(file, "%c%.4f", separator, (double)angles.flexion_rad);
-    if (!table->config->hinge) {
-        (void)fprintf(file, "%c%.4f%c%.4f%c%.4f", separator, (double)angles.pronation_rad, separator,
-                      (double)angles.carrying_rad, separator, (double)(DEG_PER_RAD * row->heading_rad));
+    const float values[ANGLE_TABLE_COLUMNS] = {angles.flexion_rad, angles.pronation_rad, angles.carrying_rad,
+                                               DEG_PER_RAD * row->heading_rad, DEG_PER_RAD * row->bound_rad};
+    for (int k = 0; k < ANGLE_TABLE_COLUMNS; k++) {
+        if (has_column(config, k)) {
+            (void)fputc(config->sto ? '\t' : ',', file);
+            if (row->known) {
+                (void)fprintf(file, "%.4f", (double)values[k]);
+            }
+        }
     }
     (void)fputc('\n', file);
 }
 
 static void write_header(const angle_table_t *table, uint64_t rows)
 {
+    static const char *const csv_names[ANGLE_TABLE_COLUMNS] = {"flexion_deg", "pronation_deg", "carrying_deg",
+                                                               "heading_offset_deg", "bound_deg"};
+    static const char *const sto_names[ANGLE_TABLE_COLUMNS] = {"flexion", "pronation", "carrying", "heading_offset",
+                                                               "bound"};
+    const angle_table_config_t *config = table->config;
     FILE *file = table->file;
-    const bool hinge = table->config->hinge;
-    if (table->config->sto) {
-        (void)fprintf(file, "jointcal angles\nversion=1\nnRows=%" PRIu64 "\nnColumns=%d\ninDegrees=yes\nendheader\n",
-                      rows, hinge ? 2 : 5);
-        (void)fputs(hinge ? "time\tflexion\n" : "time\tflexion\tpronation\tcarrying\theading_offset\n", file);
-    } else {
-        (void)fputs(hinge ? "t_s,flexion_deg\n" : "t_s,flexion_deg,pronation_deg,carrying_deg,heading_offset_deg\n",
-                    file);
+    int columns = 1;
+    for (int k = 0; k < ANGLE_TABLE_COLUMNS; k++) {
+        columns += has_column(config, k) ? 1 : 0;
     }
+    if (config->sto) {
+        (void)fprintf(file, "jointcal angles\nversion=1\nnRows=%" PRIu64 "\nnColumns=%d\ninDegrees=yes\nendheader\n",
+                      rows, columns);
+    }
+    (void)fputs(config->sto ? "time" : "t_s", file);
+    for (int k = 0; k < ANGLE_TABLE_COLUMNS; k++) {
+        if (has_column(config, k)) {
+            const char *given = config->sto ? config->names[k] : NULL;
+            const char *usual = config->sto ? sto_names[k] : csv_names[k];
+            (void)fprintf(file, "%c%s", config->sto ? '\t' : ',', (given != NULL) ? given : usual);
+        }
+    }
+    (void)fputc('\n', file);
 }
 
 /* True if nothing can be written before the last row is known. */
@@ -79,7 +122,7 @@ exit_status_t angle_table_open(angle_table_t *table, const angle_table_config_t 
     table->sign_flexion = 1.0f;
     table->sign_pronation = 1.0f;
     table->name = (config->out != NULL) ? config->out : "standard output";
-    table->file = (config->out != NULL) ? fopen(config->out, "w") : stdout;
+    table->file = (config->out != NULL) ? part_file_open(config->out) : stdout;
     if (table->file == NULL) {
         complain(table->name, 0, 0, "%s", strerror(errno));
         return EXIT_INPUT;
@@ -232,7 +275,15 @@ exit_status_t angle_table_end(angle_table_t *table)
     if (status != EXIT_READY) {
         return status;
     }
-    return (fflush(table->file) != 0 || ferror(table->file) != 0) ? failed(table) : EXIT_READY;
+    if (fflush(table->file) != 0 || ferror(table->file) != 0) {
+        return failed(table);
+    }
+    FILE *file = table->file;
+    if (file != stdout) {
+        table->file = NULL;
+        return part_file_finish(file, table->name) ? EXIT_READY : failed(table);
+    }
+    return EXIT_READY;
 }
 
 void angle_table_close(angle_table_t *table)
@@ -241,6 +292,6 @@ void angle_table_close(angle_table_t *table)
         (void)fclose(table->waiting);
     }
     if (table->file != NULL && table->file != stdout) {
-        (void)fclose(table->file);
+        part_file_drop(table->file);
     }
 }

@@ -21,6 +21,16 @@ typedef enum {
     ZERO_RANGE   ///< The smallest flexion and the smallest pronation of the recording.
 } zero_t;
 
+/// Columns beside the time: flexion, pronation, carrying angle, heading offset, bound.
+typedef enum {
+    ANGLE_FLEXION,
+    ANGLE_PRONATION,
+    ANGLE_CARRYING,
+    ANGLE_HEADING,
+    ANGLE_BOUND,
+    ANGLE_TABLE_COLUMNS
+} angle_column_t;
+
 typedef struct {
     const char *out;  ///< File name, or null for standard output.
     bool hinge;       ///< Else two axes.
@@ -30,6 +40,8 @@ typedef struct {
     jcal_joint_angles_t reference;  ///< Angles of the reference pose, flexion and pronation positive.
     bool signs_by_range;
     jcal_positive_t positive;
+    bool has_bound;                          ///< There is a column with the bound of each row's calibration.
+    const char *names[ANGLE_TABLE_COLUMNS];  ///< Columns of a storage file, time left out; null for the default.
 } angle_table_config_t;
 
 /// One row of the recording.
@@ -39,6 +51,7 @@ typedef struct {
     bool known;  ///< The angles are.
     jcal_joint_angles_t angles;
     float heading_rad;
+    float bound_rad;  ///< 95 % bound of the calibration.
 } angles_row_t;
 
 typedef struct {
@@ -50,6 +63,8 @@ typedef struct {
     bool zeroed;
     jcal_joint_angles_t zero; /* angles of the reference pose, as they come */
     float sign_flexion, sign_pronation;
+    bool has_last; /* a row with angles was written, and what it said, deg */
+    jcal_joint_angles_t last_deg;
 } angle_table_t;
 
 /// Opens the file. EXIT_READY, or another status after a message.
@@ -61,7 +76,7 @@ exit_status_t angle_table_row(angle_table_t *table, const angles_row_t *row);
 /// Writes what waits.
 exit_status_t angle_table_end(angle_table_t *table);
 
-/// Closes files; what was not written is lost.
+/// Closes files; a file that is not complete is removed.
 void angle_table_close(angle_table_t *table);
 
 #endif

@@ -60,6 +60,9 @@ void report_apply_findings(report_t *report);
 /// Why the status is not ready, in words; null if it is.
 const char *report_reason(const report_t *report);
 
+/// What would help, in words; null if nothing is known that would.
+const char *report_help(const report_t *report);
+
 /// Begins a line of JSON: the keys from `event` to `reason`. `event` is estimate, ready, moved or end.
 json_t report_json_begin(FILE *file, const char *event, const report_t *report);
 
@@ -69,6 +72,9 @@ void report_json_axes(json_t *json, const report_axes_t *axes);
 /// A vector, or null.
 void report_json_vector(json_t *json, const char *key, bool known, jcal_vec3_t v);
 
+/// The key `rejected_by`.
+void json_rejected(json_t *json, const uint32_t rejected_by[static JCAL_REJECT_COUNT]);
+
 /// Ends it with `advice` and the counters.
 void report_json_end(json_t *json, const report_t *report);
 
@@ -77,6 +83,10 @@ void report_print_event(FILE *file, const char *event, const report_t *report);
 
 /// A labelled line of the summary, or nothing if there are no words.
 void report_print_words(FILE *file, const char *label, const char *words);
+
+/// How many rows were read and rejected, and why.
+void report_print_samples(FILE *file, uint32_t samples, uint32_t rejected,
+                          const uint32_t rejected_by[static JCAL_REJECT_COUNT]);
 
 /// Beginning of the summary: status.
 void report_print_head(FILE *file, const report_t *report);

@@ -32,18 +32,23 @@ void report_json_axes(json_t *json, const report_axes_t *axes)
     json_numbers(json, "uncertainty_deg", bounded, bounds, 2);
 }
 
+void json_rejected(json_t *json, const uint32_t rejected_by[static JCAL_REJECT_COUNT])
+{
+    json_key(json, "rejected_by");
+    json_t inner = json_begin(json->file);
+    for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
+        json_count(&inner, jcal_reject_string((jcal_reject_t)k), rejected_by[k]);
+    }
+    json_end(&inner);
+}
+
 void report_json_end(json_t *json, const report_t *report)
 {
     const jcal_head_t *head = &report->head;
     json_sentences(json, "advice", report->findings.sentences, report->findings.count);
     json_count(json, "samples", head->samples);
     json_count(json, "rejected", head->rejected);
-    json_key(json, "rejected_by");
-    json_t inner = json_begin(json->file);
-    for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
-        json_count(&inner, jcal_reject_string((jcal_reject_t)k), head->rejected_by[k]);
-    }
-    json_end(&inner);
+    json_rejected(json, head->rejected_by);
     json_end(json);
     (void)fputc('\n', json->file);
 }

@@ -51,7 +51,9 @@ void report_apply_findings(report_t *report)
         head->status = JCAL_COLLECTING;
     }
     if (report->findings.explains && head->status != JCAL_READY) {
-        head->reason = JCAL_REASON_BAD_SAMPLES;
+        /* The library's word on the unit of rates says more than that samples are bad. */
+        const bool keep = head->reason == JCAL_REASON_WRONG_UNITS_GYR && report->findings.refuses;
+        head->reason = keep ? head->reason : report->findings.reason;
         head->hint = JCAL_HINT_CHECK_SENSORS;
     }
 }
@@ -79,14 +81,14 @@ const char *report_reason(const report_t *report)
     case JCAL_REASON_WRONG_UNITS_GYR:
         return "angular rates look like deg/s; rad/s are needed";
     case JCAL_REASON_WRONG_UNITS_ACC:
-        return "accelerations look like g; m/s^2 are needed";
+        return "accelerations are too small; m/s^2 are needed, with gravity in them: a sensor at rest reads 9.81";
     case JCAL_REASON_NONE:
     default:
         return NULL;
     }
 }
 
-static const char *hint_words(const report_t *report)
+const char *report_help(const report_t *report)
 {
     switch (report->head.hint) {
     case JCAL_HINT_MOVE_JOINT:
@@ -183,13 +185,14 @@ static void print_ready_time(FILE *file, const report_t *report)
     }
 }
 
-static void print_samples(FILE *file, const jcal_head_t *head)
+void report_print_samples(FILE *file, uint32_t samples, uint32_t rejected,
+                          const uint32_t rejected_by[static JCAL_REJECT_COUNT])
 {
-    (void)fprintf(file, "  %-18s %" PRIu32 " read, %" PRIu32 " rejected", "samples", head->samples, head->rejected);
+    (void)fprintf(file, "  %-18s %" PRIu32 " read, %" PRIu32 " rejected", "samples", samples, rejected);
     const char *before = ": ";
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
-        if (head->rejected_by[k] > 0) {
-            (void)fprintf(file, "%s%" PRIu32 " %s", before, head->rejected_by[k], reject_words((jcal_reject_t)k));
+        if (rejected_by[k] > 0) {
+            (void)fprintf(file, "%s%" PRIu32 " %s", before, rejected_by[k], reject_words((jcal_reject_t)k));
             before = ", ";
         }
     }
@@ -253,7 +256,7 @@ static void print_help(FILE *file, const report_t *report)
     const check_findings_t *findings = &report->findings;
     const bool explained = findings->explains && report->head.status != JCAL_READY;
     if (!explained) {
-        report_print_words(file, "what would help", hint_words(report));
+        report_print_words(file, "what would help", report_help(report));
     }
     for (size_t k = explained ? 1 : 0; k < findings->count; k++) {
         report_print_words(file, "about the data", findings->sentences[k]);
@@ -268,7 +271,7 @@ void report_print_state(FILE *file, const report_t *report)
     report_print_words(file, "weakest", weak_words(head->weak));
     print_help(file, report);
     print_ready_time(file, report);
-    print_samples(file, head);
+    report_print_samples(file, head->samples, head->rejected, head->rejected_by);
 }
 
 void report_print_exit(FILE *file, const report_t *report)

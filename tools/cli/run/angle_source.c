@@ -37,6 +37,11 @@ static void set_axes(angle_source_t *source, jcal_vec3_t axis1, jcal_vec3_t axis
     joint->known = true;
 }
 
+static bool is_accepted(const angle_source_t *source, bool has_axes)
+{
+    return source->head.status == JCAL_READY || (source->config.accept_best && has_axes);
+}
+
 /* The calibration of this recording, up to this row. */
 static bool update_engine(angle_source_t *source, const recording_row_t *row,
                           const jcal_orientation_pair_t *orientations)
@@ -51,8 +56,10 @@ static bool update_engine(angle_source_t *source, const recording_row_t *row,
         if (jcal_hinge_update(&source->hinge, &pair) < 0 || jcal_hinge_get(&source->hinge, &result) != JCAL_OK) {
             return false;
         }
-        if (result.head.status == JCAL_READY) {
+        source->head = result.head;
+        if (is_accepted(source, result.has_axes)) {
             set_axes(source, result.axis1, result.axis2, 0.0f);
+            source->joint.bound_rad = fmaxf(result.uncertainty1_rad, result.uncertainty2_rad);
         }
         return true;
     }
@@ -61,8 +68,11 @@ static bool update_engine(angle_source_t *source, const recording_row_t *row,
         jcal_two_dof_get(&source->two_dof, &result) != JCAL_OK) {
         return false;
     }
-    if (result.head.status == JCAL_READY) {
+    source->head = result.head;
+    if (is_accepted(source, result.has_axes)) {
         set_axes(source, result.axis1, result.axis2, result.carrying_angle_rad);
+        source->joint.bound_rad =
+            fmaxf(fmaxf(result.uncertainty1_rad, result.uncertainty2_rad), result.uncertainty_heading_rad);
         source->joint.heading_rad = result.heading_offset_rad;
     }
     return true;
@@ -153,10 +163,11 @@ static bool angles_of(angle_source_t *source, jcal_orientation_pair_t *orientati
         return true;
     }
     out->heading_rad = heading.heading_rad;
+    out->bound_rad = source->joint.bound_rad;
     return compute(source, orientations, heading.heading_rad, &out->angles);
 }
 
-bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, angles_row_t *out)
+bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, bool refused, angles_row_t *out)
 {
     const recording_row_t *row = &oriented->row;
     jcal_orientation_pair_t orientations = {row_clock_advance(&source->clock, row), row->q1, row->q2};
@@ -172,5 +183,13 @@ bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, an
     if (!source->given && !update_engine(source, row, &orientations)) {
         return false;
     }
-    return !usable || angles_of(source, &orientations, out);
+    if (usable && !angles_of(source, &orientations, out)) {
+        return false;
+    }
+    if (refused && !source->config.accept_best) {
+        out->known = false;
+        source->at_end = false;
+    }
+    source->rows += out->known ? 1u : 0u;
+    return true;
 }

@@ -15,6 +15,7 @@ typedef struct {
     bool hinge;  ///< Else two axes.
     bool has_toward1, has_toward2;
     jcal_vec3_t toward1, toward2;  ///< Where the axes point about.
+    bool accept_best;              ///< Take the best estimate, whatever its status.
     float window_s;                ///< Memory of the heading; 0 for the default.
     float max_bound_rad;           ///< 0 for the default.
     jcal_sign_hint_t sign_hint;
@@ -25,11 +26,14 @@ typedef struct {
     bool known;
     jcal_vec3_t axis1, axis2;
     float carrying_rad;
+    float bound_rad;
     float heading_rad; /* of the engine; a follower has its own */
 } angle_joint_t;
 
 typedef struct {
-    bool at_end;  ///< The last row whose orientations were of use had angles.
+    bool at_end;       ///< The last row whose orientations were of use had angles.
+    uint64_t rows;     ///< Rows with angles.
+    jcal_head_t head;  ///< Of the calibration that the rows so far make.
 
     /* Private. */
     angle_source_config_t config;
@@ -47,7 +51,7 @@ typedef struct {
 /// Prepares; `calibration` may be null. False if the library refuses the settings, which would be a mistake of this program.
 bool angle_source_start(angle_source_t *source, const angle_source_config_t *config, const calibration_t *calibration);
 
-/// Takes in a row and gives its angles. False if the library refuses a call, which would be a mistake of this program.
-bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, angles_row_t *out);
+/// Takes in a row and gives its angles, none if the recording as a whole is `refused`. False if the library refuses a call, which would be a mistake of this program.
+bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, bool refused, angles_row_t *out);
 
 #endif

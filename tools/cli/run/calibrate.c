@@ -128,8 +128,11 @@ static bool push(session_t *session, oriented_row_t *oriented)
         memset(session->seen, 0, sizeof session->seen);
     }
     if (oriented->reject != JCAL_REJECT_NONE) {
-        session->rejected_by[oriented->reject]++;
-        return true;
+        if (session->orientations.source != ORIENTATIONS_FROM_COLUMNS) {
+            session->rejected_by[oriented->reject]++;
+            return true;
+        }
+        row->q1.w = NAN; /* so that the library sees how many of the orientations that it needs are missing */
     }
     if (!row->has_time) {
         /* The library's time has no NaN; the sample has. */

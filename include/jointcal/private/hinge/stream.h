@@ -29,12 +29,11 @@ typedef struct {
     jcal_watch_t watch;  ///< Of the gyroscopes' residual and the accelerometers'.
     jcal_hinge_weigh_t weigh;
     jcal_hinge_amount_t amount;
-    float doubt_s;   ///< How long the sums have contradicted every hinge, s of motion; less than 0: agreed.
-    float credit_s;  ///< Time not yet paid for with slices of work.
-    uint64_t last_us;
+    float credit_s;       ///< Time not yet paid for with slices of work.
     uint8_t slice;        ///< Next slice of the cycle.
     int8_t kept_sign[2];  ///< Signs of both axes from the first `ready` on; lib/joint/sign.h.
     bool has_last;
+    uint64_t last_us;
 } jcal_hinge_t;
 
 #ifdef __cplusplus

@@ -21,6 +21,7 @@ typedef struct {
     jcal_ring_t ring;
     jcal_orientation_pair_t last[JCAL_TWO_DOF_KEPT];  ///< Newest first.
     uint8_t pushes;                                   ///< Samples since one was last kept; of push.
+    bool has_kept;                                    ///< One was kept; of push.
     uint8_t count;                                    ///< How many there are in `last`; of step.
 } jcal_two_dof_kept_t;
 
