@@ -42,6 +42,7 @@ MEASUREMENTS = {
     "lai22": "the methods of LAI22 as they are: kinds of low-pass, how often they are wrong",
     "people": "a person's elbow and knee: repeatability of parts",
     "two_dof_sim": "2-DoF joint, simulated: coverage, sharpness, what must never be ready",
+    "handling": "sensors handled before they are on the joint: how much later ready",
     "moved": "slips: how soon they are noticed, false alarms",
     "angles": "joint angles of the rig beside the optical ones",
     "center": "joint centre: rig recordings, measured vectors, float64, parts, hinges",

@@ -20,7 +20,9 @@ typedef struct {
     jcal_vec3_t a1, a2;  ///< Specific forces, m/s^2.
     float w1_2, w2_2;    ///< |w1|^2, |w2|^2.
     float dt_s;          ///< Time that the sample stands for.
-    float acc_weight;    ///< Weight of (25), integrated over dt.
+    float gyr_weight;    ///< Weight of (24), integrated over dt.
+    float acc_weight;    ///< The same of (25).
+    float acc_variance;  ///< Of (25), (m/s^2)^2.
 } jcal_hinge_sample_t;
 
 /// The phase stands behind the unknowns; it is eliminated when the block closes.

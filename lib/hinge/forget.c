@@ -8,8 +8,15 @@
 #include "math/scalar.h"
 #include "math/sym.h"
 
+#include <float.h>
+
 #define TILTS JCAL_HINGE_TILTS
 #define UNKNOWNS JCAL_HINGE_UNKNOWNS
+
+/// A diagonal of which only this share is left after an elimination is rounding: 8 unknowns, a few operations each.
+#define ROUNDING (64.0f * FLT_EPSILON)
+/// Nothing at all is known below this: its reciprocal is finite.
+#define PIVOT_MIN 1e-20f
 
 /// What says how well the residuals are known, not what they say.
 static void fade_counts(jcal_hinge_refine_t *self, float share)
@@ -47,26 +54,39 @@ void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share)
 }
 
 /// Eliminates a share 1 - keep of unknown p from matrix and gradient; keep = 0 leaves the information about the others alone.
-static void eliminate(jcal_hinge_refine_t *self, unsigned p, float keep)
+///
+/// What is left of row p is `keep` of it, exactly: as a difference it would be rounding, and the next time that this is given up,
+/// rounding over rounding would be taken off the others. So it is with a pivot of no more than `least`: nothing is known of p that the
+/// others could owe to it.
+static void eliminate(jcal_hinge_refine_t *self, unsigned p, float keep, float least)
 {
-    const float pivot = jcal_max(self->matrix[jcal_sym_at(p, p)], 1e-20f);
+    const float pivot = self->matrix[jcal_sym_at(p, p)];
+    const float give = (pivot > jcal_max(least, PIVOT_MIN)) ? ((1.0f - keep) / pivot) : 0.0f;
     float column[UNKNOWNS];
     for (unsigned i = 0u; i < UNKNOWNS; ++i) {
         column[i] = self->matrix[jcal_sym_at(i, p)];
     }
     const float of_p = self->gradient[p];
     for (unsigned i = 0u; i < UNKNOWNS; ++i) {
-        const float share = (1.0f - keep) * column[i] / pivot;
+        const float share = give * column[i];
         for (unsigned k = 0u; k <= i; ++k) {
             self->matrix[jcal_sym_at(i, k)] -= share * column[k];
         }
+        const size_t own = jcal_sym_at(i, i);
+        self->matrix[own] = jcal_max(self->matrix[own], 0.0f); /* where all was owed to p, rounding is left */
         self->gradient[i] -= share * of_p;
     }
+    for (unsigned i = 0u; i < UNKNOWNS; ++i) {
+        self->matrix[jcal_sym_at(i, p)] = keep * column[i];
+    }
+    self->gradient[p] = keep * of_p;
 }
 
 void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, float keep)
 {
     const unsigned first = 2u * axis;
+    const float least[2] = {ROUNDING * self->matrix[jcal_sym_at(first, first)],
+                            ROUNDING * self->matrix[jcal_sym_at(first + 1u, first + 1u)]};
     for (unsigned i = 0u; i < TILTS; ++i) {
         for (unsigned k = 0u; k <= i; ++k) {
             const bool touches = ((i / 2u) == axis) || ((k / 2u) == axis);
@@ -74,7 +94,7 @@ void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, flo
         }
     }
     for (unsigned i = first; i < (first + 2u); ++i) {
-        eliminate(self, i, keep);
+        eliminate(self, i, keep, least[i - first]);
         self->lean[i] *= keep;
     }
     self->along[axis] *= keep;

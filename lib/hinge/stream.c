@@ -10,6 +10,7 @@
 #include "hinge/search.h"
 #include "hinge/slip.h"
 #include "hinge/stream.h"
+#include "hinge/weigh.h"
 #include "joint/sign.h"
 #include "joint/watch.h"
 #include "jointcal/vec3.h"
@@ -27,29 +28,17 @@
 /// A sample stands for the time since the one before it, but never for more than this, s.
 #define STEP_MAX_S 0.05f
 
-/// Keeps the weight 1 / (|w1|^2 + |w2|^2 + eps) finite at rest, (rad/s)^2; docs/METHOD.md section 2.
-#define RATE_EPS 0.05f
-/// Time constant of the product of the rates, s.
-#define PRODUCT_TIME_S 0.2f
-
-/// Readings of the same pose add little: their weight falls like 1 / (1 + t) while both specific forces stay within
-/// this, (m/s^2)^2, and is nothing after DWELL_MAX_S: hours of it would only round.
-#define DWELL_ACC2 1.0f
-#define DWELL_MAX_S 10.0f
-
-/// Rest: both rates below this, squared sum, (rad/s)^2. Its weight falls like 1 / (1 + t^2), so that a rest of any length counts as
-/// 1.6 s; after REST_MAX_S the refined axes leave it out too.
-#define REST_RATE2 0.02f
+/// Rest after which the refined axes leave it out, s.
 #define REST_MAX_S 1.0f
-
-/// Errors in |w1| - |w2| that no joint motion causes: scale errors as a share of the rate, and noise, rad/s.
-#define DIFFERENCE_SHARE 0.03f
-#define DIFFERENCE_NOISE_RAD_S 0.02f
 
 /// Growth of the usual residual of the rates with them, squared: scale and misalignment of the gyroscopes.
 #define RATE_SHARE2 4e-4f
 /// Share of the accelerometers' assumed variance that changes within a second; the rest, biases say, is there all the time.
 #define WATCH_ACC_SHARE 0.3f
+
+/// Before the first `ready` the sums are given up when they have contradicted every hinge for so long, s of motion.
+#define DOUBT_S 4.0f
+
 /// Axes may be off by this, rad, beyond their bounds before a sensor is said to have moved.
 #define SLIP_RAD 0.06f
 
@@ -80,8 +69,8 @@ static void say_nothing_is_known(jcal_hinge_verdict_t *verdict)
     verdict->bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
     verdict->bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
     verdict->status = (uint8_t)JCAL_COLLECTING;
-    verdict->reason = (uint8_t)JCAL_REASON_NO_DATA;
-    verdict->hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+    verdict->reason = (uint8_t)(verdict->after_doubt ? JCAL_REASON_DOES_NOT_FIT : JCAL_REASON_NO_DATA);
+    verdict->hint = (uint8_t)(verdict->after_doubt ? JCAL_HINT_CHECK_SENSORS : JCAL_HINT_MOVE_JOINT);
     verdict->weak = (uint8_t)JCAL_WEAK_AXIS1;
 }
 
@@ -143,59 +132,6 @@ static float slice_s(const jcal_hinge_t *self)
     return 1.0f / self->cfg.slices_per_s;
 }
 
-/// Variance of the accelerometers' residual (25) of [OLS20], (m/s^2)^2: it grows with fast motion, where (17) is not zero.
-static float acc_variance(const jcal_hinge_t *self)
-{
-    const float violation = self->cfg.lever_arm_m * self->rate_product;
-    return (self->cfg.acc_noise_m_s2 * self->cfg.acc_noise_m_s2) + (violation * violation);
-}
-
-/// Weight of the accelerometer reading: less in fast motion and while a pose lasts.
-static float acc_weight(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
-{
-    const float share = sample->dt_s / (sample->dt_s + PRODUCT_TIME_S);
-    self->rate_product += share * (sqrtf(sample->w1_2 * sample->w2_2) - self->rate_product);
-    const jcal_vec3_t away1 = jcal_vec3_sub(sample->a1, self->rest_acc1);
-    const jcal_vec3_t away2 = jcal_vec3_sub(sample->a2, self->rest_acc2);
-    if ((jcal_vec3_dot(away1, away1) + jcal_vec3_dot(away2, away2)) > DWELL_ACC2) {
-        self->rest_acc1 = sample->a1;
-        self->rest_acc2 = sample->a2;
-        self->dwell_s = 0.0f;
-    }
-    self->dwell_s += sample->dt_s;
-    if (self->dwell_s > DWELL_MAX_S) {
-        return 0.0f; /* so small a weight would only round */
-    }
-    return (sample->dt_s / JCAL_HINGE_UNIT_S) / (acc_variance(self) * (1.0f + self->dwell_s));
-}
-
-static jcal_hinge_sample_t weigh(jcal_hinge_t *self, const jcal_pair_t *pair, float dt_s)
-{
-    jcal_hinge_sample_t sample;
-    sample.w1 = pair->imu1.gyr_rad_s;
-    sample.w2 = pair->imu2.gyr_rad_s;
-    sample.a1 = pair->imu1.acc_m_s2;
-    sample.a2 = pair->imu2.acc_m_s2;
-    sample.w1_2 = jcal_vec3_dot(sample.w1, sample.w1);
-    sample.w2_2 = jcal_vec3_dot(sample.w2, sample.w2);
-    sample.dt_s = dt_s;
-    sample.acc_weight = acc_weight(self, &sample);
-    return sample;
-}
-
-/// Sums that limit or gate all others.
-static void watch(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
-{
-    const float difference = fabsf(sqrtf(sample->w1_2) - sqrtf(sample->w2_2));
-    const float errors = (DIFFERENCE_SHARE * sqrtf(jcal_max(sample->w1_2, sample->w2_2))) + DIFFERENCE_NOISE_RAD_S;
-    const float excess = jcal_max(difference - errors, 0.0f);
-    self->amount.excitation += sample->dt_s * excess * excess;
-    self->amount.motion += sample->dt_s * (sample->w1_2 + sample->w2_2);
-    self->amount.weight_acc += sample->acc_weight;
-    self->amount.weight_acc2 += sample->acc_weight * sample->acc_weight / sample->dt_s;
-    self->rest_s = ((sample->w1_2 + sample->w2_2) < REST_RATE2) ? (self->rest_s + sample->dt_s) : 0.0f;
-}
-
 /// Halves all sums: nothing saturates, and old data count less.
 static void halve(jcal_hinge_t *self)
 {
@@ -219,7 +155,7 @@ static void watch_fit(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
     const float acc = jcal_vec3_dot(sample->a1, j1) - jcal_vec3_dot(sample->a2, j2) - self->coarse.acc_constant_m_s2;
     const float noise = self->cfg.gyr_noise_rad_s;
     jcal_watch_add(&self->watch, 0u, gyr * gyr / ((noise * noise) + (RATE_SHARE2 * rate2)), motion_s);
-    jcal_watch_add(&self->watch, 1u, acc * acc / (WATCH_ACC_SHARE * acc_variance(self)), motion_s);
+    jcal_watch_add(&self->watch, 1u, acc * acc / (WATCH_ACC_SHARE * sample->acc_variance), motion_s);
 }
 
 /// True if the last seconds contradict a calibration that was ready.
@@ -230,31 +166,44 @@ static bool has_slipped(const jcal_hinge_t *self)
            jcal_hinge_slip_alarm(&self->refine.slip, SLIP_RAD + jcal_min(bound, self->cfg.max_bound_rad));
 }
 
-/// A sensor has moved: what was learnt of the joint is void.
+/// What was learnt of the joint is void; the samples go on.
 static void begin_anew(jcal_hinge_t *self)
 {
+    const jcal_hinge_weigh_t weigh = self->weigh;
     const uint64_t last_us = self->last_us;
     clear(self);
+    self->weigh = weigh;
     self->last_us = last_us;
     self->has_last = true;
-    self->verdict.status = (uint8_t)JCAL_MOVED;
+}
+
+/// Before the first `ready`: counts how long the sums contradict every hinge, in time of motion. True if that is long enough to begin
+/// anew without them: sensors that were handled before they were on the joint. What comes later must agree as long before nothing is
+/// said of it any more.
+static bool is_contradicted(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
+{
+    const float motion_s = sample->dt_s * jcal_watch_motion(sample->w1_2 + sample->w2_2);
+    const float least_s = self->verdict.after_doubt ? -DOUBT_S : 0.0f;
+    float *const doubt_s = &self->watch.seen_s[0]; /* free until the watch begins */
+    if (self->watch.on) {
+        return false;
+    }
+    *doubt_s = jcal_max(*doubt_s + (self->verdict.contradicted ? motion_s : -motion_s), least_s);
+    self->verdict.after_doubt = self->verdict.after_doubt && (*doubt_s > -DOUBT_S);
+    return *doubt_s > DOUBT_S;
 }
 
 /// Returns true if a block of the refined axes closed.
 static bool sum_up(jcal_hinge_t *self, const jcal_hinge_sample_t *sample)
 {
     bool closed = false;
-    watch(self, sample);
-    const float noise = self->cfg.gyr_noise_rad_s;
-    const float gyr_weight =
-        (sample->dt_s / JCAL_HINGE_UNIT_S) /
-        (noise * noise * (sample->w1_2 + sample->w2_2 + RATE_EPS) * (1.0f + (self->rest_s * self->rest_s)));
+    jcal_hinge_count(&self->amount, sample);
     float z[JCAL_HINGE_FEATURES];
     jcal_hinge_features(sample->w1, sample->w2, z);
-    jcal_sym_rank1(self->coarse.moments.gyr, JCAL_HINGE_FEATURES, z, gyr_weight);
+    jcal_sym_rank1(self->coarse.moments.gyr, JCAL_HINGE_FEATURES, z, sample->gyr_weight);
     const float y[7] = {sample->a1.x, sample->a1.y, sample->a1.z, -sample->a2.x, -sample->a2.y, -sample->a2.z, 1.0f};
     jcal_sym_rank1(self->coarse.moments.acc, 7u, y, sample->acc_weight);
-    if (self->rest_s >= REST_MAX_S) {
+    if (self->weigh.rest_s >= REST_MAX_S) {
         jcal_hinge_refine_interrupt(&self->refine);
     } else if (self->coarse.has_point) {
         closed = jcal_hinge_refine_add(&self->refine, &self->cfg, &self->coarse, sample);
@@ -351,13 +300,20 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
         jcal_hinge_refine_interrupt(&self->refine);
     }
     const float dt_s = jcal_min(since_s, STEP_MAX_S);
-    const jcal_hinge_sample_t sample = weigh(self, pair, dt_s);
+    const jcal_hinge_sample_t sample = jcal_hinge_weigh(&self->weigh, &self->cfg, pair, dt_s);
     const bool closed = sum_up(self, &sample);
     if (self->verdict.status == (uint8_t)JCAL_READY) {
         jcal_watch_start(&self->watch);
     }
     if (jcal_watch_alarm(&self->watch) || (closed && has_slipped(self))) {
         begin_anew(self);
+        self->verdict.status = (uint8_t)JCAL_MOVED;
+        return;
+    }
+    if (is_contradicted(self, &sample)) {
+        begin_anew(self);
+        self->verdict.after_doubt = true;
+        say_nothing_is_known(&self->verdict);
         return;
     }
     self->credit_s -= closed ? jcal_min(CLOSE_SLICES * slice_s(self), jcal_max(CLOSE_S, dt_s)) : 0.0f;

@@ -34,6 +34,7 @@ KEPT = "lib/two_dof/kept.c"
 WATCH = "lib/joint/watch.h"
 SLIP = "lib/hinge/slip.c"
 SIGN = "lib/joint/sign.h"
+WEIGH = "lib/hinge/weigh.c"
 WINDOW = "lib/hinge/window.c"
 TWO_ENGINE = "lib/two_dof/stream.c"
 CMODEL = "lib/center/model.c"
@@ -100,8 +101,11 @@ MUTATIONS = [
      "d[i] = (pull * away[i]) - (self->gradient[i] - acc.gradient[i]);", "accelerometer part of a step"),
     (REFINE, "out[0] = sign * jcal_vec3_dot(to, axis->u);",
      "out[0] = -sign * jcal_vec3_dot(to, axis->u);", "direction of the pull"),
-    (FORGET, "const float share = (1.0f - keep) * column[i] / pivot;",
-     "const float share = keep * column[i] / pivot;", "forgetting one axis"),
+    (FORGET, "((1.0f - keep) / pivot)", "(keep / pivot)", "forgetting one axis"),
+    (FORGET, "self->matrix[jcal_sym_at(i, p)] = keep * column[i];", "(void)keep;", "what is left of a row"),
+    (FORGET, "#define ROUNDING (64.0f * FLT_EPSILON)", "#define ROUNDING 0.0f", "a pivot that is rounding"),
+    (ENGINE, "(self->verdict.contradicted ? motion_s : -motion_s)", "-motion_s", "sums that no hinge explains"),
+    (JUDGE, "(blank && !is_explained(self, STRAINED_MIN))", "false", "sums of which no axis comes"),
     (REFINE,
      "const float cost_other = jcal_max(power - (2.0f * jcal_plane_norm(block->match_other)), 0.0f);",
      "const float cost_other = jcal_max(power - (1.0f * jcal_plane_norm(block->match_other)), 0.0f);",
@@ -156,16 +160,16 @@ MUTATIONS = [
     (POINT, "axis_move(&point->axis2, d[2], d[3]);", "axis_move(&point->axis2, d[2], d[1]);", "index of a step"),
     (POINT, "jcal_vec3_dot(a->axis2.j, b->axis2.j)) > 0.0f;",
      "jcal_vec3_dot(a->axis2.j, b->axis2.j)) < 0.0f;", "same pairing"),
-    (ENGINE, "(violation * violation);", "violation;", "weight of (25)"),
-    (ENGINE, "const float violation = self->cfg.lever_arm_m * self->rate_product;",
+    (WEIGH, "(violation * violation);", "violation;", "weight of (25)"),
+    (WEIGH, "const float violation = cfg->lever_arm_m * self->rate_product;",
      "const float violation = 0.0f * self->rate_product;", "lever arm"),
     (ENGINE, "jcal_sym_scale(self->coarse.moments.acc, 7u, 0.5f);",
      "jcal_sym_scale(self->coarse.moments.acc, 7u, 1.0f);", "halving"),
-    (ENGINE, "self->rest_s = ((sample->w1_2 + sample->w2_2) < REST_RATE2) ? (self->rest_s + sample->dt_s) : 0.0f;",
+    (WEIGH, "self->rest_s = ((sample.w1_2 + sample.w2_2) < REST_RATE2) ? (self->rest_s + dt_s) : 0.0f;",
      "self->rest_s = 0.0f;", "rest"),
-    (ENGINE, "- errors, 0.0f);", "+ errors, 0.0f);", "errors in the difference of rates"),
-    (ENGINE, "(noise * noise * (sample->w1_2 + sample->w2_2 + RATE_EPS)",
-     "(noise * (sample->w1_2 + sample->w2_2 + RATE_EPS)", "weight of (24)"),
+    (WEIGH, "- errors, 0.0f);", "+ errors, 0.0f);", "errors in the difference of rates"),
+    (WEIGH, "(noise * noise * (sample.w1_2 + sample.w2_2 + RATE_EPS)",
+     "(noise * (sample.w1_2 + sample.w2_2 + RATE_EPS)", "weight of (24)"),
     (RESIDUAL, "derivative[1] = scale * q;", "derivative[1] = -scale * q;", "Jacobian of (24)"),
     (RESIDUAL, "return across1 - across2;", "return across1 + across2;", "(24)"),
     (ACCEPT, "/ (n - 1.0f);", "/ n;", "(58)"),

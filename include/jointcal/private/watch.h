@@ -14,7 +14,7 @@ extern "C" {
 typedef struct {
     float recent[2];  ///< Mean over the last 1.5 s of motion.
     float usual[2];   ///< Mean over the last 20 s of motion since the calibration was ready.
-    float seen_s[2];  ///< How much motion that is, at most 20 s.
+    float seen_s[2];  ///< How much motion that is, at most 20 s; until it is on, free for what counts then.
     bool on;          ///< There is a calibration that was ready.
 } jcal_watch_t;
 

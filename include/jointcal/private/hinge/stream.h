@@ -9,6 +9,7 @@
 #include "jointcal/private/hinge/refine.h"
 #include "jointcal/private/hinge/search.h"
 #include "jointcal/private/hinge/verdict.h"
+#include "jointcal/private/hinge/weigh.h"
 #include "jointcal/private/inbox.h"
 #include "jointcal/private/watch.h"
 
@@ -25,12 +26,8 @@ typedef struct {
     jcal_hinge_refine_t refine;
     jcal_hinge_search_t search;
     jcal_hinge_verdict_t verdict;
-    jcal_watch_t watch;     ///< Of the gyroscopes' residual and the accelerometers'.
-    jcal_vec3_t rest_acc1;  ///< Specific forces at which the present dwelling began ...
-    jcal_vec3_t rest_acc2;
-    float dwell_s;       ///< ... and how long it has lasted.
-    float rest_s;        ///< How long neither sensor has turned.
-    float rate_product;  ///< Low-passed |w1| |w2|.
+    jcal_watch_t watch;  ///< Of the gyroscopes' residual and the accelerometers'.
+    jcal_hinge_weigh_t weigh;
     jcal_hinge_amount_t amount;
     float credit_s;       ///< Time not yet paid for with slices of work.
     uint8_t slice;        ///< Next slice of the cycle.

@@ -4,6 +4,7 @@
 #ifndef JCAL_PRIVATE_HINGE_VERDICT_H
 #define JCAL_PRIVATE_HINGE_VERDICT_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -18,6 +19,8 @@ typedef struct {
     float sign_progress;
     uint8_t status, weak, hint, reason;  ///< As in jcal_hinge_result_t.
     uint8_t agreed;                      ///< Judgements in a row that found nothing missing.
+    bool contradicted;                   ///< No hinge explains the sums.
+    bool after_doubt;                    ///< Sums that no hinge explained were given up; those since then are few.
 } jcal_hinge_verdict_t;
 
 #ifdef __cplusplus
