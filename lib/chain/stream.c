@@ -82,6 +82,8 @@ jcal_status_t jcal_chain_init(jcal_chain_t *self, const jcal_chain_config_t *con
     const jcal_chain_config_t cfg = *config; /* the caller may hand over self->cfg */
     jcal_clear(self, sizeof *self);
     self->cfg = cfg;
+    self->calm_m[0] = JCAL_BOUND_UNKNOWN_M;
+    self->calm_m[1] = JCAL_BOUND_UNKNOWN_M;
     jcal_center_config_t knee = cfg.center;
     knee.hinge_axis1 = cfg.knee_axis2;
     knee.hinge_axis2 = cfg.knee_axis3;
@@ -239,6 +241,26 @@ static bool is_sound(const joint_news_t *joint)
            ((joint->status == JCAL_COLLECTING) && (joint->reason == JCAL_REASON_UNCERTAIN));
 }
 
+static float own_bound_m(const jcal_center_t *joint)
+{
+    return jcal_max(joint->work.verdict.bound1_m, joint->work.verdict.bound2_m);
+}
+
+/// A joint's own bound with play: down at once, up only as far as the bound is JCAL_HYSTERESIS times larger. So this goes below a limit
+/// where the bound does, and above it where the bound is JCAL_HYSTERESIS times the limit.
+static float calm_of(const jcal_center_t *joint, float before_m)
+{
+    const float own_m = own_bound_m(joint);
+    return jcal_min(jcal_max(before_m, own_m / JCAL_HYSTERESIS), own_m);
+}
+
+/// Whether a joint's worst bound after all ties is small enough. Ties scale with the joint's own bound, so that it breathes as that does
+/// and takes over its play.
+static bool is_known(const jcal_center_t *joint, float calm_m, float worst_m, float limit_m)
+{
+    return (worst_m * calm_of(joint, calm_m)) <= (limit_m * own_bound_m(joint));
+}
+
 /// Status by the bounds; `fits` if no tie contradicts.
 static void tell_status(const jcal_chain_t *self, const joint_news_t *hip, const joint_news_t *knee, bool fits,
                         jcal_chain_result_t *out)
@@ -247,9 +269,11 @@ static void tell_status(const jcal_chain_t *self, const joint_news_t *hip, const
     for (size_t i = 0u; i < 2u; ++i) {
         worst[i] = jcal_max(out->uncertainty_m[2u * i], out->uncertainty_m[(2u * i) + 1u]);
     }
-    const float limit = self->cfg.center.max_bound_m * (self->was_ready ? JCAL_HYSTERESIS : 1.0f);
-    const bool hip_known = is_sound(hip) && ((worst[0] <= limit) || (hip->status == JCAL_READY));
-    const bool knee_known = is_sound(knee) && ((worst[1] <= limit) || (knee->status == JCAL_READY));
+    const float limit_m = self->cfg.center.max_bound_m;
+    const bool hip_known =
+        is_sound(hip) && ((hip->status == JCAL_READY) || is_known(&self->hip, self->calm_m[0], worst[0], limit_m));
+    const bool knee_known =
+        is_sound(knee) && ((knee->status == JCAL_READY) || is_known(&self->knee, self->calm_m[1], worst[1], limit_m));
     if (hip_known && knee_known) {
         out->head.status = fits ? JCAL_READY : JCAL_COLLECTING;
         out->head.reason = fits ? JCAL_REASON_NONE : JCAL_REASON_DOES_NOT_FIT;
@@ -293,24 +317,11 @@ jcal_status_t jcal_chain_get(const jcal_chain_t *self, jcal_chain_result_t *out)
     return JCAL_OK;
 }
 
-/// Remembers whether the status is `ready`, so that it is left later than it was entered, whenever a joint was judged anew. Where both
-/// joints are, no tie has to be looked at for that.
-static void follow_status(jcal_chain_t *self)
+/// Remembers each joint's own bound. What ties make of it is left to jcal_chain_get, as they take several times what a step may.
+static void follow_bounds(jcal_chain_t *self)
 {
-    const jcal_center_verdict_t *const hip = &self->hip.work.verdict;
-    const jcal_center_verdict_t *const knee = &self->knee.work.verdict;
-    if ((hip->count == self->judged[0]) && (knee->count == self->judged[1])) {
-        return;
-    }
-    self->judged[0] = hip->count;
-    self->judged[1] = knee->count;
-    if ((hip->status == (uint8_t)JCAL_READY) && (knee->status == (uint8_t)JCAL_READY)) {
-        self->was_ready = true;
-    } else {
-        jcal_chain_result_t now;
-        (void)jcal_chain_get(self, &now);
-        self->was_ready = now.head.status == JCAL_READY;
-    }
+    self->calm_m[0] = calm_of(&self->hip, self->calm_m[0]);
+    self->calm_m[1] = calm_of(&self->knee, self->calm_m[1]);
 }
 
 jcal_status_t jcal_chain_step(jcal_chain_t *self)
@@ -320,7 +331,7 @@ jcal_status_t jcal_chain_step(jcal_chain_t *self)
     }
     const jcal_status_t hip = jcal_center_step(&self->hip);
     const jcal_status_t knee = jcal_center_step(&self->knee);
-    follow_status(self);
+    follow_bounds(self);
     return ((hip == JCAL_IDLE) && (knee == JCAL_IDLE)) ? JCAL_IDLE : JCAL_OK;
 }
 

@@ -205,6 +205,23 @@ static void solve_when_due(jcal_hinge_window_t *self, const jcal_hinge_rows_t *r
     }
 }
 
+/// A sample to both selections. Apart from the step, as is follow_status, so that what they hold shares its stack.
+static void offer(jcal_hinge_window_t *self, const jcal_pair_t *pair, uint32_t id)
+{
+    jcal_scored_t scored;
+    if (jcal_score_push(&self->score, slots(self), pair, id, &scored)) {
+        jcal_select_gyr_offer(&self->gyr, gyr_rows(self), &scored.gyr);
+        jcal_select_acc_offer(&self->acc, acc_rows(self), &scored.acc);
+    }
+}
+
+/// Remembers whether the status is `ready`.
+static void follow_status(jcal_hinge_window_t *self)
+{
+    jcal_hinge_result_t result;
+    self->was_ready = (jcal_hinge_window_get(self, &result) == JCAL_OK) && (result.head.status == JCAL_READY);
+}
+
 jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
 {
     if ((self == NULL) || (self->storage == NULL)) {
@@ -218,11 +235,7 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
     const uint32_t id = self->inbox_ids[slot];
     jcal_ring_release(&self->guard.inbox.ring);
     keep_time(self, pair.t_us);
-    jcal_scored_t scored;
-    if (jcal_score_push(&self->score, slots(self), &pair, id, &scored)) {
-        jcal_select_gyr_offer(&self->gyr, gyr_rows(self), &scored.gyr);
-        jcal_select_acc_offer(&self->acc, acc_rows(self), &scored.acc);
-    }
+    offer(self, &pair, id);
     const jcal_hinge_rows_t rows = selected(self);
     jcal_hinge_window_follow(self, &rows);
     solve_when_due(self, &rows, pair.t_us);
@@ -234,8 +247,7 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
     if (knew && !self->guard.coarse.has_point) { /* a sensor has moved: what was selected is of another joint */
         empty(self);
     }
-    jcal_hinge_result_t result;
-    self->was_ready = (jcal_hinge_window_get(self, &result) == JCAL_OK) && (result.head.status == JCAL_READY);
+    follow_status(self);
     return JCAL_OK;
 }
 

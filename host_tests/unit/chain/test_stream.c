@@ -696,11 +696,10 @@ static void update_is_push_and_step_and_makes_room(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_chain_update(&engine, &bad, NULL));
 }
 
-/* What ties both has made the knee's bound small enough; both joints are judged once more. */
+/* The knee is judged once more. */
 static void judge_knee(float bound_m)
 {
     say(&engine.knee, JCAL_COLLECTING, JCAL_REASON_UNCERTAIN, bound_m);
-    engine.knee.work.verdict.count = (uint8_t)(engine.knee.work.verdict.count + 1u);
     (void)jcal_chain_step(&engine);
 }
 
@@ -720,6 +719,38 @@ static void ready_by_what_ties_both_is_left_later_than_it_is_entered(void)
     assert_said(JCAL_COLLECTING, JCAL_WEAK_CENTER2, JCAL_REASON_UNCERTAIN);
     judge_knee(1.1f * limit_m);
     assert_said(JCAL_COLLECTING, JCAL_WEAK_CENTER2, JCAL_REASON_UNCERTAIN);
+}
+
+static float knees_worst_m(void)
+{
+    const jcal_chain_result_t r = result();
+    return fmaxf(r.uncertainty_m[JCAL_CHAIN_KNEE_TO_THIGH], r.uncertainty_m[JCAL_CHAIN_KNEE_TO_SHANK]);
+}
+
+static void a_tie_that_makes_ready_does_so_while_bounds_breathe(void)
+{
+    const float own_m = 0.03f;
+    make_up_both();
+    engine.knee.work.sums.point.b1 = engine.hip.work.sums.point.b2;
+    engine.cfg.plane_normal = jcal_vec3(0.0f, 0.0f, 1.0f); /* across the knee's axis, where a tie buys something */
+    engine.cfg.plane_tolerance_m = 1e-3f;
+    const jcal_vec3_t hip = engine.hip.work.sums.point.place.r2;
+    engine.knee.work.sums.point.place.r1 = jcal_vec3_sub(hip, jcal_vec3(0.0f, 0.4f, 0.0f)); /* which fits */
+    say(&engine.hip, JCAL_READY, JCAL_REASON_NONE, 0.01f);
+    judge_knee(own_m);
+    const float limit_m = 1.01f * knees_worst_m();
+    TEST_ASSERT_TRUE(limit_m < 0.9f * own_m);
+    engine.cfg.center.max_bound_m = limit_m;
+    assert_said(JCAL_READY, JCAL_WEAK_NONE, JCAL_REASON_NONE);
+    judge_knee(1.1f * own_m);
+    TEST_ASSERT_TRUE(knees_worst_m() > limit_m);
+    assert_said(JCAL_READY, JCAL_WEAK_NONE, JCAL_REASON_NONE);
+    judge_knee(1.5f * own_m);
+    assert_said(JCAL_COLLECTING, JCAL_WEAK_CENTER2, JCAL_REASON_UNCERTAIN);
+    judge_knee(1.3f * own_m);
+    assert_said(JCAL_COLLECTING, JCAL_WEAK_CENTER2, JCAL_REASON_UNCERTAIN);
+    judge_knee(own_m);
+    assert_said(JCAL_READY, JCAL_WEAK_NONE, JCAL_REASON_NONE);
 }
 
 static void what_was_never_prepared_does_nothing(void)
@@ -765,6 +796,7 @@ int main(void)
     RUN_TEST(a_push_that_finds_no_room_leaves_no_trace);
     RUN_TEST(update_is_push_and_step_and_makes_room);
     RUN_TEST(ready_by_what_ties_both_is_left_later_than_it_is_entered);
+    RUN_TEST(a_tie_that_makes_ready_does_so_while_bounds_breathe);
     RUN_TEST(what_was_never_prepared_does_nothing);
     return UNITY_END();
 }

@@ -16,8 +16,8 @@ typedef struct {
     jcal_chain_config_t cfg;
     jcal_center_t hip;
     jcal_center_t knee;
-    uint8_t judged[2];  ///< Judgements of hip and knee that `was_ready` follows.
-    bool was_ready;     ///< The status was `ready` after them.
+    float
+        calm_m[2];  ///< Bounds of hip and knee, each by itself, with play: what breathes less than that does not show.
     uint32_t samples;
     uint32_t overrun;  ///< Triples that found one of the inboxes full.
     uint32_t rejected_by[JCAL_REJECT_COUNT];
