@@ -325,7 +325,6 @@ static void judge(const jcal_center_config_t *cfg, jcal_center_work_t *self)
     const jcal_center_bounds_t b[2] = {enough ? self->as.inverse.bounds[0] : unknown,
                                        enough ? self->as.inverse.bounds[1] : unknown};
     name_what_is_missing(cfg, self, b);
-    verdict->count = (uint8_t)(verdict->count + 1u);
     verdict->bound1_m = b[0].all;
     verdict->bound2_m = b[1].all;
     verdict->weakest1_m = b[0].weakest;

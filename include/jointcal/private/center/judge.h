@@ -18,7 +18,6 @@ typedef struct {
     float misfit;                        ///< As in the result.
     uint8_t status, weak, hint, reason;  ///< As in the result.
     uint8_t agreed;                      ///< Judgements in a row that found nothing missing.
-    uint8_t count;                       ///< Judgements so far, modulo 256.
 } jcal_center_verdict_t;
 
 /// Bounds of one sensor's vector, m.
