@@ -2,6 +2,8 @@
 /* What the program tells a person of any joint. */
 #include "output/report.h"
 
+#include <math.h>
+
 #include "output/message.h"
 
 #include <inttypes.h>
@@ -41,6 +43,20 @@ static const char *uncertain_words(jcal_weak_t weak)
     case JCAL_WEAK_SIGN:
     default:
         return "an axis is not known well enough";
+    }
+}
+
+void report_advise_sign(const report_axes_t *axes, check_findings_t *findings)
+{
+    const float sizes[3] = {fabsf(axes->axis1.x), fabsf(axes->axis1.y), fabsf(axes->axis1.z)};
+    const float largest = fmaxf(fmaxf(sizes[0], sizes[1]), sizes[2]);
+    const float least = fminf(fminf(sizes[0], sizes[1]), sizes[2]);
+    const float second = sizes[0] + sizes[1] + sizes[2] - largest - least;
+    if (axes->known && axes->bound1 < BOUND_UNKNOWN_RAD && largest - second < 2.0f * axes->bound1) {
+        check_say(
+            findings,
+            "the sign of axis 1 hangs on a tie of its components: another recording may give its opposite, and angles "
+            "of the other sign; --axis1-toward X,Y,Z settles it");
     }
 }
 
