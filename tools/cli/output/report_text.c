@@ -98,6 +98,8 @@ const char *report_reason(const report_t *report)
         return "angular rates look like deg/s; rad/s are needed";
     case JCAL_REASON_WRONG_UNITS_ACC:
         return "accelerations are too small; m/s^2 are needed, with gravity in them: a sensor at rest reads 9.81";
+    case JCAL_REASON_RATE_TOO_LOW:
+        return "fewer than 10 samples a second: a joint turns too far from one to the next";
     case JCAL_REASON_NONE:
     default:
         return NULL;
