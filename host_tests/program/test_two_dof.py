@@ -47,6 +47,29 @@ class TwoDofTest(ProgramTest):
 class Columns(TwoDofTest):
     """Orientations that are known exactly."""
 
+    def test_rows_without_orientations_are_bad_samples(self):
+        """A sensor whose orientations stop keeps nobody waiting for more than two seconds."""
+        cells = [list(row) for row in CELLS]
+        at = COLUMNS.index("q2_w")
+        gone = next(k for k, row in enumerate(ROWS) if row[0] - ROWS[0][0] > 20.0)
+        for row in cells[gone:]:
+            row[at:at + 4] = ["nan"] * 4
+        lines, status = self.lines(recordings.csv(cells, COLUMNS), "--every", "0.5")
+        self.assertEqual((status, lines[-1]["status"], lines[-1]["reason"]), (3, "collecting", "bad_samples"))
+        start = ROWS[0][0]
+        self.assertTrue(all(line["status"] != "ready" for line in lines if line["t_s"] - start > 22.0))
+        self.assertTrue(any(line["status"] == "ready" for line in lines if line["t_s"] - start < 20.0))
+
+    def test_axis1_toward_chooses_the_sign(self):
+        lines, _ = self.lines(FILE)
+        axis = lines[-1]["axis1"]
+        for sign in (1.0, -1.0):
+            toward = ",".join(f"{sign * x:.9f}" for x in axis)
+            turned, status = self.lines(FILE, "--axis1-toward", toward)
+            self.assertEqual(status, 0)
+            for x, y in zip(turned[-1]["axis1"], axis, strict=True):
+                self.assertAlmostEqual(x, sign * y, places=5)
+
     def test_every_line_has_every_key(self):
         lines, status = self.lines(FILE, "--every", "0.5")
         self.assertEqual(status, 0)

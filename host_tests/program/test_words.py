@@ -4,6 +4,7 @@ import bz2
 import gzip
 import itertools
 import lzma
+import math
 import os
 import pathlib
 import signal
@@ -201,6 +202,40 @@ class Readings(Words):
     def test_no_rows(self):
         self.assertEqual(self.lines(recordings.csv([]))[0][-1]["advice"], ["there is a header line and no row below it"])
         self.assertIn("there is a header line and no row below it", self.hinge(recordings.csv([])).stdout.decode())
+
+
+class Signs(Words):
+    """An axis and its opposite are the same line; which is told may hang on a tie."""
+
+    TIE = "the sign of axis 1 hangs on a tie"
+
+    def turned(self, angle):
+        """A hinge whose sensor 1 is turned about its x axis, so that the axis lies between y and z; a second angle tips the tie."""
+        c, s = math.cos(angle), math.sin(angle)
+        rows = []
+        for t, *values in recordings.hinge_rows(30):
+            for first in (0, 3):  # rate and specific force of sensor 1
+                x, y, z = values[first:first + 3]
+                values[first:first + 3] = [x, c * y - s * z, s * y + c * z]
+            rows.append([t, *values])
+        return rows
+
+    def test_a_tie_is_told_and_axis1_toward_settles_it(self):
+        axis = self.lines(recordings.csv(recordings.texts(recordings.hinge_rows(30))))[0][-1]["axis1"]
+        along = math.atan2(axis[2], axis[1])
+        text = recordings.csv(recordings.texts(self.turned(math.pi / 4.0 - along)))
+        lines, status = self.lines(text)
+        self.assertEqual(status, 0)
+        self.assertTrue(any(self.TIE in sentence for sentence in lines[-1]["advice"]), lines[-1])
+        told = lines[-1]["axis1"]
+        lines, status = self.lines(text, "--axis1-toward", ",".join(f"{-x:.6f}" for x in told))
+        self.assertEqual((status, lines[-1]["advice"]), (0, []))
+        for x, y in zip(lines[-1]["axis1"], told, strict=True):
+            self.assertAlmostEqual(x, -y, places=5)
+
+    def test_no_tie_no_word(self):
+        lines, _ = self.lines(recordings.csv(recordings.texts(recordings.hinge_rows(30))))
+        self.assertFalse(any(self.TIE in sentence for sentence in lines[-1]["advice"]), lines[-1])
 
 
 class Check(Words):

@@ -49,7 +49,8 @@ jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *confi
 /// Counts a sample that something else than its readings excludes, as if this gate had rejected it.
 void jcal_gate_refuse(jcal_gate_t *self, jcal_reject_t cause);
 
-/// What is wrong with the stream as a whole: JCAL_REASON_NONE, _WRONG_UNITS_GYR, _WRONG_UNITS_ACC or _BAD_SAMPLES.
+/// What is wrong with the stream as a whole: JCAL_REASON_NONE, _RATE_TOO_LOW, _WRONG_UNITS_GYR, _WRONG_UNITS_ACC or
+/// _BAD_SAMPLES.
 /// Threads:  one caller at a time; inside push it is push.
 jcal_reason_t jcal_gate_complaint(const jcal_gate_t *self);
 

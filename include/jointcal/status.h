@@ -74,7 +74,8 @@ typedef enum {
         6,                        ///< No joint of this kind explains the data: other joint, or sensors that share none.
     JCAL_REASON_BAD_SAMPLES = 7,  ///< Too many samples are rejected (saturated, frozen, repeated ...).
     JCAL_REASON_WRONG_UNITS_GYR = 8,  ///< Angular rates look like deg/s.
-    JCAL_REASON_WRONG_UNITS_ACC = 9   ///< Accelerations look like g.
+    JCAL_REASON_WRONG_UNITS_ACC = 9,  ///< Accelerations look like g.
+    JCAL_REASON_RATE_TOO_LOW = 10     ///< Fewer than 10 samples a second.
 } jcal_reason_t;
 
 /// Short English text for a call result; never null. Threads: no state.

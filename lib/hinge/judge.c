@@ -129,6 +129,7 @@ static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
     case JCAL_REASON_BAD_SAMPLES:
     case JCAL_REASON_WRONG_UNITS_GYR:
     case JCAL_REASON_WRONG_UNITS_ACC:
+    case JCAL_REASON_RATE_TOO_LOW:
         return JCAL_HINT_CHECK_SENSORS;
     case JCAL_REASON_NONE:
     default:

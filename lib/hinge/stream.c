@@ -18,6 +18,7 @@
 #include "math/scalar.h"
 #include "math/solve.h"
 #include "math/sym.h"
+#include "sample/clock.h"
 #include "sample/ring.h"
 
 #include <math.h>
@@ -25,8 +26,8 @@
 
 #define MICROSECONDS 1e-6f
 
-/// A sample stands for the time since the one before it, but never for more than this, s.
-#define STEP_MAX_S 0.05f
+/// A sample stands for the time since the one before it, but never for more than this, s: 10 samples a second, with 5 % for clocks.
+#define STEP_MAX_S JCAL_CLOCK_SLOW_S
 
 /// Rest after which the refined axes leave it out, s.
 #define REST_MAX_S 1.0f

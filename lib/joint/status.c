@@ -70,7 +70,7 @@ const char *jcal_hint_string(jcal_hint_t hint)
 const char *jcal_reason_string(jcal_reason_t reason)
 {
     static const char *const words[] = {
-        NULL,           "no_data",     "no_motion",       "uncertain",      "sign_open", "other_minimum",
-        "does_not_fit", "bad_samples", "wrong_units_gyr", "wrong_units_acc"};
+        NULL,           "no_data",     "no_motion",       "uncertain",       "sign_open",   "other_minimum",
+        "does_not_fit", "bad_samples", "wrong_units_gyr", "wrong_units_acc", "rate_too_low"};
     return word(words, COUNT(words), (int)reason, NULL);
 }

@@ -23,7 +23,8 @@ static void believe(jcal_clock_t *self, uint64_t t_us)
     self->has_odd = false;
 }
 
-jcal_reject_t jcal_clock_check(jcal_clock_t *self, float gap_s, uint64_t t_us, float *dt_s)
+/// What jcal_clock_check returns and puts out.
+static jcal_reject_t follow(jcal_clock_t *self, float gap_s, uint64_t t_us, float *dt_s)
 {
     *dt_s = 0.0f;
     if (!self->has_last || goes_on(self->last_us, t_us, gap_s, dt_s)) {
@@ -48,4 +49,17 @@ jcal_reject_t jcal_clock_check(jcal_clock_t *self, float gap_s, uint64_t t_us, f
     self->run_us = 0u;
     self->has_odd = true;
     return is_later ? JCAL_REJECT_GAP : JCAL_REJECT_TIME_ORDER;
+}
+
+jcal_reject_t jcal_clock_check(jcal_clock_t *self, float gap_s, uint64_t t_us, float *dt_s)
+{
+    const jcal_reject_t outcome = follow(self, gap_s, t_us, dt_s);
+    if ((outcome == JCAL_REJECT_GAP) || (*dt_s > JCAL_CLOCK_SLOW_S)) {
+        self->slow = (uint8_t)((self->slow < JCAL_CLOCK_SLOW_MOST) ? (self->slow + 1u) : JCAL_CLOCK_SLOW_MOST);
+    } else if ((outcome == JCAL_REJECT_NONE) && (self->slow > 0u)) {
+        self->slow = (uint8_t)(self->slow - 1u);
+    } else {
+        /* fast enough, or time that is not believed */
+    }
+    return outcome;
 }

@@ -14,6 +14,17 @@
 /// How long a clock that went back must go on before it is believed, us.
 #define JCAL_CLOCK_ANEW_US 400000u
 
+/// Samples further apart than this, s, are fewer than 10 a second, with 5 % for clocks: the angle of a joint cannot be followed then.
+#define JCAL_CLOCK_SLOW_S 0.105f
+/// More than half of so many samples say that the rate is too low.
+#define JCAL_CLOCK_SLOW_MOST 40u
+
+/// True if samples have come at less than 10 a second for a while.
+static inline bool jcal_clock_is_slow(const jcal_clock_t *self)
+{
+    return self->slow > (JCAL_CLOCK_SLOW_MOST / 2u);
+}
+
 /// Takes in a time stamp; `gap_s` is the longest distance of two samples that go on from each other.
 ///
 /// Outputs:  dt_s, the time since the sample before; 0 if that is not known.

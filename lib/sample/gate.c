@@ -133,6 +133,9 @@ jcal_reason_t jcal_gate_complaint(const jcal_gate_t *self)
     if (self == NULL) {
         return JCAL_REASON_NONE;
     }
+    if (jcal_clock_is_slow(&self->clock)) {
+        return JCAL_REASON_RATE_TOO_LOW;
+    }
     if (!self->turn.has_first) {
         return (self->bad_share > BAD_SHARE_MAX) ? JCAL_REASON_BAD_SAMPLES : JCAL_REASON_NONE;
     }

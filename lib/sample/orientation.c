@@ -77,5 +77,8 @@ jcal_reject_t jcal_orientation_gate_check(jcal_orientation_gate_t *self, const j
 
 jcal_reason_t jcal_orientation_gate_complaint(const jcal_orientation_gate_t *self)
 {
+    if (jcal_clock_is_slow(&self->clock)) {
+        return JCAL_REASON_RATE_TOO_LOW;
+    }
     return (self->bad_share > BAD_SHARE_MAX) ? JCAL_REASON_BAD_SAMPLES : JCAL_REASON_NONE;
 }

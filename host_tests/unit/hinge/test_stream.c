@@ -31,8 +31,8 @@ static void axes_and_pairing_are_recovered_for_any_mounting_and_become_ready(voi
 
 static void axes_are_recovered_at_every_rate(void)
 {
-    const double rates[5] = {25.0, 40.0, 60.0, 128.0, 200.0};
-    for (int i = 0; i < 5; ++i) {
+    const double rates[8] = {10.0, 12.5, 19.0, 25.0, 40.0, 60.0, 128.0, 200.0};
+    for (int i = 0; i < 8; ++i) {
         motion_t motion = motion_lively((uint32_t)i);
         motion.rate_hz = rates[i];
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_reset(&engine));
@@ -40,6 +40,22 @@ static void axes_are_recovered_at_every_rate(void)
         const jcal_hinge_result_t r = result_of(&engine);
         assert_axes(&r, &motion);
         TEST_ASSERT_EQUAL_INT(JCAL_READY, r.head.status);
+    }
+}
+
+static void below_ten_samples_a_second_nothing_is_claimed_and_the_rate_is_named(void)
+{
+    const double rates[3] = {9.0, 6.0, 4.5};
+    for (int i = 0; i < 3; ++i) {
+        motion_t motion = motion_lively((uint32_t)i);
+        motion.rate_hz = rates[i];
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_reset(&engine));
+        for (uint32_t k = 0; k < 400u; ++k) {
+            run(&engine, &motion, k, k + 1u);
+            TEST_ASSERT_NOT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
+        }
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_RATE_TOO_LOW, result_of(&engine).head.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, result_of(&engine).head.hint);
     }
 }
 
@@ -193,6 +209,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(axes_and_pairing_are_recovered_for_any_mounting_and_become_ready);
     RUN_TEST(axes_are_recovered_at_every_rate);
+    RUN_TEST(below_ten_samples_a_second_nothing_is_claimed_and_the_rate_is_named);
     RUN_TEST(the_largest_component_of_axis1_is_positive_and_axes_are_unit);
     RUN_TEST(either_pairing_is_found_without_a_hint_and_kept_with_the_right_one);
     RUN_TEST(a_hint_decides_the_pairing_even_against_the_data);

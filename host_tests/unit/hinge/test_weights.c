@@ -159,11 +159,11 @@ static void the_refined_axes_leave_out_what_lies_beyond_a_second_of_rest(void)
     TEST_ASSERT_EQUAL_FLOAT(0.0f, engine.refine.block.time_s);
 }
 
-static void a_sample_stands_for_the_time_since_the_last_one_up_to_50_ms(void)
+static void a_sample_stands_for_the_time_since_the_last_one_up_to_a_tenth_of_a_second(void)
 {
     const motion_t motion = motion_lively(6);
-    const uint64_t steps_us[3] = {10000u, 50000u, 200000u};
-    const double stands_for_s[3] = {0.01, 0.05, 0.05};
+    const uint64_t steps_us[3] = {10000u, 100000u, 200000u};
+    const double stands_for_s[3] = {0.01, 0.1, 0.105};
     for (int i = 0; i < 3; ++i) {
         setUp();
         jcal_pair_t p = motion_sample(&motion, 0);
@@ -250,7 +250,7 @@ int main(void)
     RUN_TEST(a_rest_of_any_length_weighs_less_than_two_seconds_in_the_rates);
     RUN_TEST(the_rates_weigh_in_full_again_as_soon_as_a_sensor_turns);
     RUN_TEST(the_refined_axes_leave_out_what_lies_beyond_a_second_of_rest);
-    RUN_TEST(a_sample_stands_for_the_time_since_the_last_one_up_to_50_ms);
+    RUN_TEST(a_sample_stands_for_the_time_since_the_last_one_up_to_a_tenth_of_a_second);
     RUN_TEST(the_work_per_second_does_not_depend_on_the_rate);
     RUN_TEST(the_config_says_how_much_work_is_done_per_second);
     RUN_TEST(with_few_slices_a_step_does_one_or_closes_a_block);

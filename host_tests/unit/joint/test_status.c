@@ -89,6 +89,7 @@ static void reasons_are_null_for_none_and_words_otherwise(void)
     TEST_ASSERT_EQUAL_STRING("bad_samples", jcal_reason_string(JCAL_REASON_BAD_SAMPLES));
     TEST_ASSERT_EQUAL_STRING("wrong_units_gyr", jcal_reason_string(JCAL_REASON_WRONG_UNITS_GYR));
     TEST_ASSERT_EQUAL_STRING("wrong_units_acc", jcal_reason_string(JCAL_REASON_WRONG_UNITS_ACC));
+    TEST_ASSERT_EQUAL_STRING("rate_too_low", jcal_reason_string(JCAL_REASON_RATE_TOO_LOW));
 }
 
 static void numbers_that_stand_for_nothing_reach_no_memory_beyond_the_tables(void)
@@ -123,7 +124,7 @@ static void the_first_number_after_each_enumeration_is_unknown(void)
     TEST_ASSERT_EQUAL_STRING("unknown", jcal_engine_string((jcal_engine_t)2));
     TEST_ASSERT_NULL(jcal_weak_string((jcal_weak_t)7));
     TEST_ASSERT_NULL(jcal_hint_string((jcal_hint_t)7));
-    TEST_ASSERT_NULL(jcal_reason_string((jcal_reason_t)10));
+    TEST_ASSERT_NULL(jcal_reason_string((jcal_reason_t)11));
 }
 
 int main(void)

@@ -114,6 +114,61 @@ static void both_gates_go_on_within_a_second_and_count_it(void)
     TEST_ASSERT_EQUAL_UINT32(1, orientations.rejected_by[JCAL_REJECT_GAP]);
 }
 
+/* Samples `step_us` apart; how many it takes until the rate is called too low. */
+static uint32_t slow_after(uint32_t step_us)
+{
+    uint64_t t_us = 0;
+    for (uint32_t k = 0; k < 1000u; ++k) {
+        if (jcal_clock_is_slow(&watch)) {
+            return k;
+        }
+        t_us += step_us;
+        (void)at(t_us);
+    }
+    return 0;
+}
+
+static void fewer_than_ten_samples_a_second_are_too_few(void)
+{
+    const uint32_t enough_us[] = {1000u, 50000u, 100000u, 104000u};
+    for (int i = 0; i < 4; ++i) {
+        memset(&watch, 0, sizeof watch);
+        TEST_ASSERT_EQUAL_UINT32(0, slow_after(enough_us[i]));
+    }
+    const uint32_t slow_us[] = {106000u, 125000u, 200000u, 300000u, 2000000u};
+    for (int i = 0; i < 5; ++i) {
+        memset(&watch, 0, sizeof watch);
+        TEST_ASSERT_UINT32_WITHIN(2, 22, slow_after(slow_us[i]));
+    }
+}
+
+static void a_rate_that_comes_back_is_enough_again(void)
+{
+    memset(&watch, 0, sizeof watch);
+    uint64_t t_us = 0;
+    for (uint32_t k = 0; k < 500u; ++k) { /* however long it was too low */
+        t_us += 150000u;
+        (void)at(t_us);
+    }
+    TEST_ASSERT_TRUE(jcal_clock_is_slow(&watch));
+    for (uint32_t k = 0; k < JCAL_CLOCK_SLOW_MOST; ++k) {
+        t_us += 20000u;
+        (void)at(t_us);
+    }
+    TEST_ASSERT_FALSE(jcal_clock_is_slow(&watch));
+}
+
+static void single_losses_are_no_low_rate(void)
+{
+    memset(&watch, 0, sizeof watch);
+    uint64_t t_us = 0;
+    for (uint32_t k = 0; k < 1000u; ++k) { /* every third sample comes late */
+        t_us += ((k % 3u) == 0u) ? 200000u : 20000u;
+        (void)at(t_us);
+        TEST_ASSERT_FALSE(jcal_clock_is_slow(&watch));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -122,6 +177,9 @@ int main(void)
     RUN_TEST(a_clock_that_begins_anew_is_believed_after_four_tenths_of_a_second);
     RUN_TEST(packets_in_the_wrong_order_never_take_the_clock_back);
     RUN_TEST(a_clock_that_stands_is_never_believed);
+    RUN_TEST(fewer_than_ten_samples_a_second_are_too_few);
+    RUN_TEST(a_rate_that_comes_back_is_enough_again);
+    RUN_TEST(single_losses_are_no_low_rate);
     RUN_TEST(both_gates_go_on_within_a_second_and_count_it);
     return UNITY_END();
 }

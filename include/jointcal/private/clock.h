@@ -17,6 +17,7 @@ typedef struct {
     uint64_t odd_us;   ///< The last time that did not follow it ...
     uint32_t run_us;   ///< ... and for how long such times have followed each other.
     bool has_last, has_odd;
+    uint8_t slow;  ///< Samples that came too far apart, less those that did not; 0 to JCAL_CLOCK_SLOW_MOST.
 } jcal_clock_t;
 
 #ifdef __cplusplus

@@ -139,6 +139,7 @@ static const command_line_t LINE = {
              {.help =
                   "Ready when the centre is known to within M metres from both sensors with 95 % confidence (default 0.01)"},
          [COMMON_SIGN_HINT] = {.refusal = "--sign-hint is for a hinge: a joint centre has no sign"},
+         [COMMON_AXIS1_TOWARD] = {.refusal = "--axis1-toward is for axes: a joint centre has no axes"},
          [COMMON_JSON] = {.help = COMMON_JSON_HELP},
          [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
     .n_max_least = 50,

@@ -89,6 +89,7 @@ static const command_line_t LINE = {
              {.help = "Ready when both centres are known to within M metres from all sensors with 95 % confidence "
                       "(default 0.01)"},
          [COMMON_SIGN_HINT] = {.refusal = "--sign-hint is for a hinge: joint centres have no sign"},
+         [COMMON_AXIS1_TOWARD] = {.refusal = "--axis1-toward is for axes: joint centres have no axes"},
          [COMMON_JSON] = {.help = COMMON_JSON_HELP},
          [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
     .bound_unit = BOUND_IN_M,

@@ -24,6 +24,7 @@ static void settle(struct argp_state *state, common_options_t *common, void *opt
     config->n_max = (common->n_max > 0) ? common->n_max : config->n_max;
     config->hinge.max_bound_rad = (common->max_bound > 0.0f) ? common->max_bound : config->hinge.max_bound_rad;
     config->hinge.sign_hint = common->sign_hint;
+    config->hinge.axis1_toward = common->axis1_toward;
     common->max_bound = config->hinge.max_bound_rad;
     const common_limit_t limits[] = {
         {"max_bound_rad", "max-bound", common->max_bound / RAD_PER_DEG, "a number of degrees from 0.06 to 28"},
@@ -50,6 +51,7 @@ static const command_line_t LINE = {
          [COMMON_MAX_BOUND] =
              {.help = "Ready when both axes are known to within DEG degrees with 95 % confidence (default 3)"},
          [COMMON_SIGN_HINT] = {.help = COMMON_SIGN_HELP},
+         [COMMON_AXIS1_TOWARD] = {.help = COMMON_TOWARD_HELP},
          [COMMON_JSON] = {.help = COMMON_JSON_HELP},
          [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
     .n_max_least = 20,
@@ -62,6 +64,7 @@ static const command_line_t LINE = {
 
 typedef struct {
     jcal_engine_t kind;
+    bool sign_is_chosen; /* by --axis1-toward */
     union {
         jcal_hinge_t stream;
         jcal_hinge_window_t window;
@@ -135,6 +138,15 @@ void hinge_write_keys(json_t *json, const jcal_hinge_result_t *result)
     }
 }
 
+static void advise(const void *self, check_findings_t *findings)
+{
+    const hinge_run_t *run = self;
+    const report_axes_t found = axes(&run->result);
+    if (!run->sign_is_chosen) {
+        report_advise_sign(&found, findings);
+    }
+}
+
 static void write_json(const void *self, json_t *json)
 {
     hinge_write_keys(json, &((const hinge_run_t *)self)->result);
@@ -171,6 +183,7 @@ static const calibrate_joint_t HINGE = {.words = &HINGE_WORDS,
                                         .push = push,
                                         .get = get,
                                         .bounds = bounds,
+                                        .advise = advise,
                                         .write_json = write_json,
                                         .print_summary = print_summary};
 
@@ -184,6 +197,8 @@ int hinge_command(int argc, char **argv)
     if (run == NULL || !start(run, common.engine, &config)) {
         complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
     } else {
+        const jcal_vec3_t toward = common.axis1_toward;
+        run->sign_is_chosen = toward.x != 0.0f || toward.y != 0.0f || toward.z != 0.0f;
         status = calibrate(&common, &HINGE, run, false);
     }
     if (run != NULL) {

@@ -83,6 +83,7 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
     } else if (common->window_s > 0.0f) {
         config->memory_s = common->window_s;
     }
+    config->axis1_toward = common->axis1_toward;
     config->max_bound_rad = (common->max_bound > 0.0f) ? common->max_bound : config->max_bound_rad;
     common->max_bound = config->max_bound_rad;
     const common_limit_t limits[] = {
@@ -122,6 +123,7 @@ static const command_line_t LINE = {
                   "Ready when both axes and the heading are known to within DEG degrees with 95 % confidence (default 3)"},
          [COMMON_SIGN_HINT] =
              {.refusal = "--sign-hint is for a hinge: each axis of a joint with two axes has a sign of its own"},
+         [COMMON_AXIS1_TOWARD] = {.help = COMMON_TOWARD_HELP},
          [COMMON_JSON] = {.help = COMMON_JSON_HELP},
          [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
     .n_max_least = 20,
@@ -136,6 +138,7 @@ static const command_line_t LINE = {
 
 typedef struct {
     jcal_engine_t kind;
+    bool sign_is_chosen; /* by --axis1-toward */
     union {
         jcal_two_dof_t stream;
         jcal_two_dof_window_t window;
@@ -219,6 +222,15 @@ static bool heading_bounded(const jcal_two_dof_result_t *result)
     return result->has_axes && result->uncertainty_heading_rad < BOUND_UNKNOWN_RAD;
 }
 
+static void advise(const void *self, check_findings_t *findings)
+{
+    const two_dof_run_t *run = self;
+    const report_axes_t found = axes(&run->result);
+    if (!run->sign_is_chosen) {
+        report_advise_sign(&found, findings);
+    }
+}
+
 static void write_json(const void *self, json_t *json)
 {
     const jcal_two_dof_result_t *result = &((const two_dof_run_t *)self)->result;
@@ -269,6 +281,7 @@ static const calibrate_joint_t TWO_DOF = {.words = &TWO_DOF_WORDS,
                                           .reset = reset,
                                           .get = get,
                                           .bounds = bounds,
+                                          .advise = advise,
                                           .write_json = write_json,
                                           .print_summary = print_summary};
 
@@ -283,6 +296,8 @@ int two_dof_command(int argc, char **argv)
     if (run == NULL || !start(run, common.engine, &options.config)) {
         complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
     } else {
+        const jcal_vec3_t toward = common.axis1_toward;
+        run->sign_is_chosen = toward.x != 0.0f || toward.y != 0.0f || toward.z != 0.0f;
         status = calibrate(&common, &TWO_DOF, run, true);
     }
     if (run != NULL) {

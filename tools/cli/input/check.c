@@ -51,7 +51,7 @@ void check_push(check_t *check, const check_row_t *row)
     }
 }
 
-__attribute__((format(printf, 2, 3))) static void say(check_findings_t *findings, const char *format, ...)
+void check_say(check_findings_t *findings, const char *format, ...)
 {
     if (findings->count < CHECK_SENTENCES) {
         va_list arguments;
@@ -69,8 +69,8 @@ static void say_same(const check_t *check, check_findings_t *findings)
         const bool acc = check->same_acc[k] > rows;
         if (check->pair_rows[k] >= ENOUGH_ROWS && (gyr || acc)) {
             const char *what = (gyr && acc) ? "columns" : (gyr ? "rates" : "accelerations");
-            say(findings, "the %s of sensor %d are those of sensor %d: the same sensor was written twice", what,
-                PAIRS[k][1] + 1, PAIRS[k][0] + 1);
+            check_say(findings, "the %s of sensor %d are those of sensor %d: the same sensor was written twice", what,
+                      PAIRS[k][1] + 1, PAIRS[k][0] + 1);
             findings->refuses = true;
             findings->reason = JCAL_REASON_BAD_SAMPLES;
         }
@@ -83,21 +83,25 @@ static void say_rate_unit(check_findings_t *findings, int sensor, double scale)
     const double per_rad_s = 1.0 / scale;
     const double per_deg_s = per_rad_s / DEG_PER_RAD;
     if (scale > 1.0) {
-        say(findings,
+        check_say(
+            findings,
             "rates of sensor %d: gravity turns %.3g times as fast as they say with t_s in seconds; rad/s and s are needed",
             sensor, scale);
     } else if (per_deg_s > 0.6 && per_deg_s < 1.7) {
-        say(findings, "rates of sensor %d look like deg/s; rad/s are needed: multiply by 0.0174533", sensor);
+        check_say(findings, "rates of sensor %d look like deg/s; rad/s are needed: multiply by 0.0174533", sensor);
     } else if (per_deg_s > 600.0 && per_deg_s < 1700.0) {
-        say(findings, "rates of sensor %d look like thousandths of deg/s; rad/s are needed: multiply by 1.74533e-05",
-            sensor);
+        check_say(findings,
+                  "rates of sensor %d look like thousandths of deg/s; rad/s are needed: multiply by 1.74533e-05",
+                  sensor);
     } else if (per_deg_s > 8.0 && per_deg_s < 200.0) {
-        say(findings,
+        check_say(
+            findings,
             "rates of sensor %d look like raw counts, about %.0f to 1 deg/s; rad/s are needed: divide by what the data "
             "sheet says and multiply by 0.0174533",
             sensor, per_deg_s);
     } else {
-        say(findings, "rates of sensor %d are about %.3g times as large as rad/s, which are needed", sensor, per_rad_s);
+        check_say(findings, "rates of sensor %d are about %.3g times as large as rad/s, which are needed", sensor,
+                  per_rad_s);
     }
 }
 
@@ -109,10 +113,10 @@ static void say_frames(check_findings_t *findings, int sensor, const check_senso
         (void)snprintf(way + length, sizeof way - length, "%s%s%c", (k > 0) ? ", " : "",
                        (verdict->sign[k] < 0) ? "-" : "", "xyz"[verdict->column[k]]);
     }
-    say(findings, "rates and accelerations of sensor %d are not in one right-handed frame%s%s", sensor,
-        verdict->way_known ? "; they fit if acc x, y, z are read from the columns "
-                           : ": check order and signs of the columns",
-        verdict->way_known ? way : "");
+    check_say(findings, "rates and accelerations of sensor %d are not in one right-handed frame%s%s", sensor,
+              verdict->way_known ? "; they fit if acc x, y, z are read from the columns "
+                                 : ": check order and signs of the columns",
+              verdict->way_known ? way : "");
 }
 
 /* Unit of accelerations in which gravity reads so much. */
@@ -133,11 +137,12 @@ static void say_acc_unit(check_findings_t *findings, int sensor, double gravity)
                  {16384.0, "raw counts, 16384 to 1 g; m/s^2 are needed: multiply by 0.00059855"}};
     for (size_t k = 0; k < sizeof units / sizeof units[0]; k++) {
         if (fabs(log(gravity / units[k].gravity)) < 0.09) {
-            say(findings, "accelerations of sensor %d look like %s", sensor, units[k].words);
+            check_say(findings, "accelerations of sensor %d look like %s", sensor, units[k].words);
             return;
         }
     }
-    say(findings,
+    check_say(
+        findings,
         "accelerations of sensor %d: gravity is %.3g in them where it is 9.81 m/s^2; check their unit, and whether gravity "
         "was taken out",
         sensor, gravity);
@@ -171,18 +176,21 @@ static void say_sensor(const check_sensor_t *sensor, int number, check_findings_
         say_frames(findings, number, &verdict);
         break;
     case CHECK_SENSOR_TURNS_BACK:
-        say(findings,
+        check_say(
+            findings,
             "rates of sensor %d turn the wrong way round: all three have the wrong sign, or its frame is left-handed",
             number);
         break;
     case CHECK_SENSOR_RATES:
-        say(findings,
+        check_say(
+            findings,
             "rates of sensor %d do not fit how gravity turns: check that they are in rad/s, and order and signs of the "
             "columns",
             number);
         break;
     case CHECK_SENSOR_NO_GRAVITY:
-        say(findings,
+        check_say(
+            findings,
             "no gravity in the accelerations of sensor %d: it was taken out; record what the accelerometer reads, which is "
             "9.81 m/s^2 upward at rest",
             number);
@@ -216,9 +224,9 @@ static void say_held(check_findings_t *findings, const char *what, const int tim
                 before = " and ";
             }
         }
-        say(findings,
-            "each reading of the %s comes %d times (sensor%s %s): it is held between new ones, which is no fault", what,
-            times[k], (strlen(names) > 1) ? "s" : "", names);
+        check_say(findings,
+                  "each reading of the %s comes %d times (sensor%s %s): it is held between new ones, which is no fault",
+                  what, times[k], (strlen(names) > 1) ? "s" : "", names);
     }
 }
 
@@ -256,7 +264,7 @@ void check_findings(const check_t *check, check_findings_t *findings)
     const bool times_explain = check_time_explains(&check->times);
     memset(findings, 0, sizeof *findings);
     if (check->rows == 0) {
-        say(findings, "there is a header line and no row below it");
+        check_say(findings, "there is a header line and no row below it");
     }
     if (times_explain) {
         say_times(check, findings);

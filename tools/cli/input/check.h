@@ -48,6 +48,9 @@ typedef struct {
     sentence_t sentences[CHECK_SENTENCES];
 } check_findings_t;
 
+/// Adds a sentence, as far as there is room.
+__attribute__((format(printf, 2, 3))) void check_say(check_findings_t *findings, const char *format, ...);
+
 /// Takes in a row.
 void check_push(check_t *check, const check_row_t *row);
 

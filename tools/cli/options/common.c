@@ -12,9 +12,9 @@
 /* Most options of a command, shared ones and the end of the table included. */
 #define OPTIONS_MAX 32
 
-static const char *const NAMES[COMMON_COUNT] = {"engine",    "n-max",     "window", "every",
-                                                "max-bound", "sign-hint", "json",   "sort"};
-static const char *const ARGUMENTS[COMMON_COUNT] = {"NAME", "N", "S", "S", "DEG", "SIGN", NULL, NULL};
+static const char *const NAMES[COMMON_COUNT] = {"engine",    "n-max",        "window", "every", "max-bound",
+                                                "sign-hint", "axis1-toward", "json",   "sort"};
+static const char *const ARGUMENTS[COMMON_COUNT] = {"NAME", "N", "S", "S", "DEG", "SIGN", "X,Y,Z", NULL, NULL};
 
 /* What argp hands to the parser. */
 typedef struct {
@@ -64,6 +64,9 @@ static void take(struct argp_state *state, const parse_t *parse, common_option_t
         common->sign_hint = (option_one_of_two(state, "sign-hint", argument, "same", "opposite") == 0)
                                 ? JCAL_SIGN_SAME
                                 : JCAL_SIGN_OPPOSITE;
+        return;
+    case COMMON_AXIS1_TOWARD:
+        common->axis1_toward = option_direction(state, "axis1-toward", argument);
         return;
     case COMMON_JSON:
         common->json = true;

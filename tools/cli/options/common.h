@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// The one description of the options that commands share: recording, engine, n-max, window, every, max-bound, sign-hint, json.
+/// The one description of the options that commands share: recording, engine, n-max, window, every, max-bound, sign-hint,
+/// axis1-toward, json, sort.
 ///
 /// A command says which of them it has and in what words, adds a table of its own options, and gets all of them parsed and checked as far
 /// as that does not depend on its joint.
@@ -9,6 +10,7 @@
 
 #include "jointcal/hinge_config.h"
 #include "jointcal/status.h"
+#include "jointcal/types.h"
 
 #include <argp.h>
 #include <stdint.h>
@@ -29,6 +31,7 @@ typedef struct {
     float window_s;   ///< 0 if not given.
     float max_bound;  ///< rad or m; 0 if not given. What is in force once `settle` of the command has run.
     jcal_sign_hint_t sign_hint;
+    jcal_vec3_t axis1_toward;  ///< Unit vector in sensor frame 1; zero if not given.
 } common_options_t;
 
 /// The options that commands share.
@@ -39,6 +42,7 @@ typedef enum {
     COMMON_EVERY,
     COMMON_MAX_BOUND,
     COMMON_SIGN_HINT,
+    COMMON_AXIS1_TOWARD,
     COMMON_JSON,
     COMMON_SORT,
     COMMON_COUNT
@@ -56,6 +60,9 @@ typedef struct {
 #define COMMON_JSON_HELP "Write JSON Lines instead of text"
 #define COMMON_SIGN_HELP                                                                                               \
     "What is known about the sign pairing. same: the largest components of both axes have the same sign; opposite: they have not"
+#define COMMON_TOWARD_HELP                                                                                                               \
+    "Axis 1 points about this way in the frame of sensor 1: chooses between an axis and its opposite, which are the same line. Without " \
+    "it the largest component is positive, and that may be nearly a tie"
 #define COMMON_EXIT_HELP                                                                                               \
     "Exit status: 0 ready at the end; 3 read to the end but not ready; 2 the command line or the recording is wrong; 1 anything else."
 #define COMMON_N_MAX_REFUSAL "--n-max goes with --engine window only: the stream engine keeps no samples"

@@ -54,6 +54,9 @@ typedef struct {
     float max_bound;           ///< What the bounds must be below, rad or m.
 } report_t;
 
+/// Says so if the sign of axis 1 hangs on a tie: its two largest components are equal to within what it is uncertain by.
+void report_advise_sign(const report_axes_t *axes, check_findings_t *findings);
+
 /// Lets findings that refuse or explain take the place of what the library can say.
 void report_apply_findings(report_t *report);
 

@@ -2,6 +2,8 @@
 /* What the program tells a person of any joint. */
 #include "output/report.h"
 
+#include <math.h>
+
 #include "output/message.h"
 
 #include <inttypes.h>
@@ -44,6 +46,20 @@ static const char *uncertain_words(jcal_weak_t weak)
     }
 }
 
+void report_advise_sign(const report_axes_t *axes, check_findings_t *findings)
+{
+    const float sizes[3] = {fabsf(axes->axis1.x), fabsf(axes->axis1.y), fabsf(axes->axis1.z)};
+    const float largest = fmaxf(fmaxf(sizes[0], sizes[1]), sizes[2]);
+    const float least = fminf(fminf(sizes[0], sizes[1]), sizes[2]);
+    const float second = sizes[0] + sizes[1] + sizes[2] - largest - least;
+    if (axes->known && axes->bound1 < BOUND_UNKNOWN_RAD && largest - second < 2.0f * axes->bound1) {
+        check_say(
+            findings,
+            "the sign of axis 1 hangs on a tie of its components: another recording may give its opposite, and angles "
+            "of the other sign; --axis1-toward X,Y,Z settles it");
+    }
+}
+
 void report_apply_findings(report_t *report)
 {
     jcal_head_t *head = &report->head;
@@ -82,6 +98,8 @@ const char *report_reason(const report_t *report)
         return "angular rates look like deg/s; rad/s are needed";
     case JCAL_REASON_WRONG_UNITS_ACC:
         return "accelerations are too small; m/s^2 are needed, with gravity in them: a sensor at rest reads 9.81";
+    case JCAL_REASON_RATE_TOO_LOW:
+        return "fewer than 10 samples a second: a joint turns too far from one to the next";
     case JCAL_REASON_NONE:
     default:
         return NULL;

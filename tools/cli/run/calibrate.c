@@ -42,6 +42,9 @@ static exit_status_t flush(void)
 static void look_at_recording(session_t *session)
 {
     check_findings(&session->reading.recording.check, &session->report.findings);
+    if (session->joint->advise != NULL && session->report.head.status == JCAL_READY) {
+        session->joint->advise(session->self, &session->report.findings);
+    }
     session->looked_at = session->samples;
     report_apply_findings(&session->report);
 }

@@ -23,6 +23,8 @@ typedef struct {
     const jcal_head_t *(*get)(void *self);
     /// What a line about an event tells of the result that was fetched last.
     report_bounds_t (*bounds)(const void *self);
+    /// Adds what there is to say of the result that was fetched last, once it is ready. Null if there never is anything.
+    void (*advise)(const void *self, check_findings_t *findings);
     /// Writes the keys that only this joint has.
     void (*write_json)(const void *self, json_t *json);
     void (*print_summary)(const void *self, FILE *file, const report_t *report);
