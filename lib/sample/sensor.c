@@ -206,7 +206,8 @@ void jcal_sensor_fade(jcal_gate_sensor_t *self)
 /// The suspicion to begin with.
 static unsigned first_of(unsigned repeats)
 {
-    unsigned first = ((repeats & BIT(ALL_STAND)) != 0u) ? ALL_STAND : STANDS;
+    const bool at_once = (repeats == 0u) || ((repeats & BIT(ALL_STAND)) != 0u);
+    unsigned first = at_once ? ALL_STAND : STANDS;
     while ((first < ALL_STAND) && ((repeats & BIT(first)) == 0u)) {
         ++first;
     }
