@@ -8,8 +8,12 @@
 /// True if a time goes on from another; then `dt_s` is the distance.
 static bool goes_on(uint64_t from_us, uint64_t t_us, float gap_s, float *dt_s)
 {
-    const float since_s = (float)(t_us - from_us) * MICROSECONDS; /* beyond any limit if it went back */
-    if ((t_us == from_us) || !(since_s <= gap_s)) {
+    const uint64_t since_us = t_us - from_us;
+    if ((since_us == 0u) || (since_us > UINT32_MAX)) { /* 71 min, beyond any limit; so if it went back */
+        return false;
+    }
+    const float since_s = (float)(uint32_t)since_us * MICROSECONDS;
+    if (!(since_s <= gap_s)) {
         return false;
     }
     *dt_s = since_s;

@@ -33,6 +33,8 @@
 /// An extreme is believed if the reading beside it reached this share of it; else that of the reading beside it.
 #define HELD_SHARE 0.9f
 #define EXTREME_UNITS 65535.0f
+/// A reading below one part in this of an extreme leaves it alone, whatever the reading beside it: a little more than 1 / HELD_SHARE.
+#define FAR_BELOW 1.12f
 /// Share of an extreme that goes each time it fades, one part in 2^6: 67 s to 1/e.
 #define EXTREME_FADE 6u
 
@@ -48,19 +50,28 @@
 #define MOVING_M_S2 0.2f
 #define MOVING_RAD_S 0.2f
 enum { NO_SUSPICION = 0, STANDS = 1, SAME = 4, ALL_STAND = 7 };
+/// Sets of what can be suspected: one bit each, and those of the components that stand.
+#define BIT(suspicion) (1u << (unsigned)(suspicion))
+#define STANDING (BIT(STANDS) | BIT(STANDS + 1) | BIT(STANDS + 2))
+
+/// The top bit is set if a number is NaN or infinite: its exponent is all ones, and one more carries into the sign.
+static inline uint32_t carry_of(float value)
+{
+    uint32_t bits;
+    (void)memcpy(&bits, &value, sizeof bits);
+    return (bits & 0x7FFFFFFFu) + 0x00800000u;
+}
 
 bool jcal_sensor_is_finite(const jcal_imu_t *imu)
 {
-    const float parts[6] = {imu->gyr_rad_s.x, imu->gyr_rad_s.y, imu->gyr_rad_s.z,
-                            imu->acc_m_s2.x,  imu->acc_m_s2.y,  imu->acc_m_s2.z};
-    bool all = true;
-    for (unsigned i = 0u; i < 6u; ++i) {
-        all = all && jcal_is_finite(parts[i]);
-    }
-    return all;
+    const jcal_vec3_t *const w = &imu->gyr_rad_s;
+    const jcal_vec3_t *const a = &imu->acc_m_s2;
+    const uint32_t carries =
+        carry_of(w->x) | carry_of(w->y) | carry_of(w->z) | carry_of(a->x) | carry_of(a->y) | carry_of(a->z);
+    return (carries >> 31) == 0u;
 }
 
-static void unpack(const jcal_imu_t *imu, float out[6])
+static inline void unpack(const jcal_imu_t *imu, float out[6])
 {
     out[0] = imu->gyr_rad_s.x;
     out[1] = imu->gyr_rad_s.y;
@@ -86,50 +97,103 @@ static bool stands(const float last[3], const float now[3])
     return (now[0] == last[0]) && (now[1] == last[1]) && (now[2] == last[2]);
 }
 
-static bool is_beyond(const jcal_gate_config_t *cfg, const float now[6])
+/// All that can be suspected of three components now.
+static unsigned suspicions_of(const float last[3], const float now[3])
 {
-    return exceeds(&now[0], cfg->gyr_max_rad_s) || exceeds(&now[3], cfg->acc_max_m_s2);
+    unsigned found = 0u;
+    found |= (now[0] == last[0]) ? BIT(STANDS) : 0u;
+    found |= (now[1] == last[1]) ? BIT(STANDS + 1) : 0u;
+    found |= (now[2] == last[2]) ? BIT(STANDS + 2) : 0u;
+    found |= (now[0] == now[1]) ? BIT(SAME) : 0u;
+    found |= (now[1] == now[2]) ? BIT(SAME + 1) : 0u;
+    found |= (now[2] == now[0]) ? BIT(SAME + 2) : 0u;
+    return found | (((found & STANDING) == STANDING) ? BIT(ALL_STAND) : 0u);
 }
 
-/// A magnitude in the units of the extremes.
-static uint16_t in_units(float magnitude, float most)
+/// The same. In most readings nothing repeats, and that is found out fast.
+static inline unsigned repeats_of(const float last[3], const float now[3])
 {
-    const float units = magnitude * (EXTREME_UNITS / most);
-    return (uint16_t)jcal_min(units, EXTREME_UNITS);
+    const bool none = (now[0] != last[0]) && (now[1] != last[1]) && (now[2] != last[2]) && (now[0] != now[1]) &&
+                      (now[1] != now[2]) && (now[2] != now[0]);
+    return none ? 0u : suspicions_of(last, now);
+}
+
+/// Units of the extremes in one rad/s or m/s^2, if the largest believable one is `most`.
+static inline float units_per(float most)
+{
+    return EXTREME_UNITS / most;
+}
+
+/// A magnitude in the units of the extremes, of which `per` make one rad/s or m/s^2.
+static inline uint16_t in_units(float magnitude, float per)
+{
+    return (uint16_t)jcal_min(magnitude * per, EXTREME_UNITS);
 }
 
 /// True if some component of three stands still at its extreme. If all three stand, no reading came: that is no sign of a limit.
-static bool stands_at_extreme(const float last[3], const float now[3], const uint16_t extreme[3], float least,
-                              float most)
+static bool stands_at_extreme(unsigned repeats, const float now[3], const uint16_t extreme[3], float least, float most)
 {
+    if (((repeats & STANDING) == 0u) || ((repeats & BIT(ALL_STAND)) != 0u)) {
+        return false;
+    }
+    const float per = units_per(most);
     bool found = false;
     for (unsigned i = 0u; i < 3u; ++i) {
         const float magnitude = fabsf(now[i]);
-        found = found || ((now[i] == last[i]) && (magnitude > least) && (in_units(magnitude, most) >= extreme[i]));
+        const bool stood = (repeats & BIT(STANDS + i)) != 0u;
+        found = found || (stood && (magnitude > least) && (in_units(magnitude, per) >= extreme[i]));
     }
-    return found && !stands(last, now);
+    return found;
 }
 
 /// A component is clipped only while the sensor turns: at rest a coarse reading repeats itself.
-static bool is_clipped(const jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const float now[6])
+static bool is_clipped(const jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const float now[6],
+                       const unsigned repeats[2])
 {
-    const float *const last = self->last;
     return exceeds(&now[0], GYR_CLIP_MIN_RAD_S) &&
-           (stands_at_extreme(&last[0], &now[0], &self->extreme[0], GYR_CLIP_MIN_RAD_S, cfg->gyr_max_rad_s) ||
-            stands_at_extreme(&last[3], &now[3], &self->extreme[3], ACC_CLIP_MIN_M_S2, cfg->acc_max_m_s2));
+           (stands_at_extreme(repeats[0], &now[0], &self->extreme[0], GYR_CLIP_MIN_RAD_S, cfg->gyr_max_rad_s) ||
+            stands_at_extreme(repeats[1], &now[3], &self->extreme[3], ACC_CLIP_MIN_M_S2, cfg->acc_max_m_s2));
 }
 
 /// An extreme is what a component held for two readings, the smaller one nearly as large: not a glitch.
-static void remember(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const float now[6])
+static inline void raise_extreme(jcal_gate_sensor_t *self, unsigned i, float now, float per)
+{
+    const float more = jcal_max(fabsf(now), fabsf(self->last[i]));
+    if ((more * per) >= (float)(self->extreme[i] + 1u)) {
+        const float less = jcal_min(fabsf(now), fabsf(self->last[i]));
+        const uint16_t held = in_units((less >= (HELD_SHARE * more)) ? more : less, per);
+        self->extreme[i] = (held > self->extreme[i]) ? held : self->extreme[i];
+    }
+}
+
+/// Remembers a reading of which some rate is beyond the limit.
+static void remember_beyond(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const float now[6])
 {
     for (unsigned i = 0u; i < 6u; ++i) {
-        const float more = jcal_max(fabsf(now[i]), fabsf(self->last[i]));
-        const float less = jcal_min(fabsf(now[i]), fabsf(self->last[i]));
-        const uint16_t held =
-            in_units((less >= (HELD_SHARE * more)) ? more : less, (i < 3u) ? cfg->gyr_max_rad_s : cfg->acc_max_m_s2);
-        self->extreme[i] = (held > self->extreme[i]) ? held : self->extreme[i];
+        raise_extreme(self, i, now[i], units_per((i < 3u) ? cfg->gyr_max_rad_s : cfg->acc_max_m_s2));
         self->last[i] = now[i];
     }
+}
+
+/// Most readings are far below the extreme, and then it need not be worked out what was held. None is beyond the limit.
+static inline void remember_one(jcal_gate_sensor_t *self, unsigned i, float now, float per)
+{
+    if ((uint32_t)(fabsf(now) * (FAR_BELOW * per)) >= self->extreme[i]) {
+        raise_extreme(self, i, now, per);
+    }
+    self->last[i] = now;
+}
+
+static inline void remember(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const float now[6])
+{
+    const float gyr_per = units_per(cfg->gyr_max_rad_s);
+    const float acc_per = units_per(cfg->acc_max_m_s2);
+    remember_one(self, 0u, now[0], gyr_per);
+    remember_one(self, 1u, now[1], gyr_per);
+    remember_one(self, 2u, now[2], gyr_per);
+    remember_one(self, 3u, now[3], acc_per);
+    remember_one(self, 4u, now[4], acc_per);
+    remember_one(self, 5u, now[5], acc_per);
 }
 
 void jcal_sensor_fade(jcal_gate_sensor_t *self)
@@ -139,27 +203,15 @@ void jcal_sensor_fade(jcal_gate_sensor_t *self)
     }
 }
 
-/// Whether a suspicion still holds.
-static bool holds(unsigned suspicion, const float last[3], const float now[3])
+/// The suspicion to begin with.
+static unsigned first_of(unsigned repeats)
 {
-    if (suspicion == ALL_STAND) {
-        return stands(last, now);
+    const bool at_once = (repeats == 0u) || ((repeats & BIT(ALL_STAND)) != 0u);
+    unsigned first = at_once ? ALL_STAND : STANDS;
+    while ((first < ALL_STAND) && ((repeats & BIT(first)) == 0u)) {
+        ++first;
     }
-    if (suspicion >= SAME) {
-        const unsigned i = suspicion - SAME;
-        return now[i] == now[(i + 1u) % 3u];
-    }
-    return (suspicion != NO_SUSPICION) && (now[suspicion - STANDS] == last[suspicion - STANDS]);
-}
-
-/// What can be suspected of three components now.
-static unsigned suspect(const float last[3], const float now[3])
-{
-    unsigned found = NO_SUSPICION;
-    for (unsigned suspicion = SAME + 2u; suspicion >= STANDS; --suspicion) {
-        found = holds(suspicion, last, now) ? suspicion : found;
-    }
-    return stands(last, now) ? ALL_STAND : found;
+    return ((repeats & BIT(first)) != 0u) ? first : NO_SUSPICION;
 }
 
 /// What a reading adds to the suspicion that a rate is dead, rad/s: how much the two others change, unless in one plane.
@@ -189,21 +241,6 @@ static float add_force(unsigned suspicion, const float last[3], const float now[
     return alone ? fabsf(x[i]) : 0.0f;
 }
 
-/// Adds to the suspicion of the rates (0) or of the specific forces (1), or begins another.
-static void follow_dead(jcal_gate_sensor_t *self, unsigned kind, unsigned suspicion, float amount)
-{
-    const float total =
-        (self->suspicion[kind] == suspicion) ? ((float)self->total[kind] + (DEAD_UNITS * amount) + 0.5f) : 0.0f;
-    self->suspicion[kind] = (uint8_t)suspicion;
-    self->total[kind] = (uint16_t)jcal_min(total, (float)UINT16_MAX);
-}
-
-/// What is suspected of three components, now that another reading has come.
-static unsigned go_on(unsigned suspicion, const float last[3], const float now[3])
-{
-    return holds(suspicion, last, now) ? suspicion : suspect(last, now);
-}
-
 /// What the rates tell of a suspicion of them.
 static float told_of_rates(const float last[6], const float now[6], unsigned suspicion, float dt_s)
 {
@@ -211,7 +248,7 @@ static float told_of_rates(const float last[6], const float now[6], unsigned sus
     if (suspicion == ALL_STAND) {
         return exceeds(moved, MOVING_M_S2) ? dt_s : 0.0f;
     }
-    return (suspicion == NO_SUSPICION) ? 0.0f : add_rate(suspicion, &last[0], &now[0]);
+    return add_rate(suspicion, &last[0], &now[0]);
 }
 
 /// The same for the specific forces.
@@ -223,22 +260,28 @@ static float told_of_forces(const float last[6], const float now[6], unsigned su
     const jcal_vec3_t w = {now[0], now[1], now[2]};
     const jcal_vec3_t a = {now[3], now[4], now[5]};
     const jcal_vec3_t expected = jcal_vec3_scale(jcal_vec3_cross(a, w), dt_s);
-    return (suspicion == NO_SUSPICION) ? 0.0f : add_force(suspicion, &last[3], &now[3], expected);
+    return add_force(suspicion, &last[3], &now[3], expected);
 }
 
-/// Looks for components that are dead.
-static void follow_suspicions(jcal_gate_sensor_t *self, const float now[6], float dt_s)
+/// Adds to the suspicion of the rates (0) or of the specific forces (1) if it still holds, or begins another.
+static void follow_dead(jcal_gate_sensor_t *self, unsigned kind, unsigned repeats, const float now[6], float dt_s)
 {
-    const float *const last = self->last;
-    const unsigned gyr = go_on(self->suspicion[0], &last[0], &now[0]);
-    const unsigned acc = go_on(self->suspicion[1], &last[3], &now[3]);
-    follow_dead(self, 0u, gyr, told_of_rates(last, now, gyr, dt_s));
-    follow_dead(self, 1u, acc, told_of_forces(last, now, acc, dt_s));
+    const unsigned suspicion = self->suspicion[kind];
+    if ((repeats & BIT(suspicion)) == 0u) {
+        self->suspicion[kind] = (uint8_t)first_of(repeats);
+        self->total[kind] = 0u;
+        return;
+    }
+    const float amount = (kind == 0u) ? told_of_rates(self->last, now, suspicion, dt_s)
+                                      : told_of_forces(self->last, now, suspicion, dt_s);
+    const float total = (float)self->total[kind] + (DEAD_UNITS * amount) + 0.5f;
+    self->total[kind] = (uint16_t)jcal_min(total, (float)UINT16_MAX);
 }
 
 static bool has_dead(const jcal_gate_sensor_t *self, unsigned kind, float limit, float frozen_s)
 {
-    return (float)self->total[kind] > (DEAD_UNITS * ((self->suspicion[kind] == ALL_STAND) ? frozen_s : limit));
+    const uint16_t total = self->total[kind];
+    return (total != 0u) && ((float)total > (DEAD_UNITS * ((self->suspicion[kind] == ALL_STAND) ? frozen_s : limit)));
 }
 
 bool jcal_sensor_acc_looks_wrong(const jcal_gate_sensor_t *self)
@@ -288,8 +331,48 @@ void jcal_sensor_start(jcal_gate_sensor_t *self, const jcal_imu_t *imu)
 jcal_reject_t jcal_sensor_begin(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const jcal_imu_t *imu)
 {
     jcal_sensor_start(self, imu);
-    const bool wrong = jcal_sensor_acc_looks_wrong(self) || is_beyond(cfg, self->last);
+    const bool wrong = jcal_sensor_acc_looks_wrong(self) || exceeds(&self->last[0], cfg->gyr_max_rad_s) ||
+                       exceeds(&self->last[3], cfg->acc_max_m_s2);
     return wrong ? JCAL_REJECT_OUT_OF_RANGE : JCAL_REJECT_NONE;
+}
+
+/// What a reading shows that repeats something of the last one, or of itself.
+static jcal_reject_t check_repeats(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const float now[6],
+                                   const unsigned repeats[2], float dt_s)
+{
+    const bool repeated = (repeats[0] & repeats[1] & BIT(ALL_STAND)) != 0u;
+    if (!repeated) {
+        follow_dead(self, 0u, repeats[0], now, dt_s);
+        follow_dead(self, 1u, repeats[1], now, dt_s);
+    }
+    if (is_clipped(self, cfg, now, repeats)) {
+        return JCAL_REJECT_SATURATED;
+    }
+    if ((repeated && ((float)self->repeated > (REPEATED_UNITS * cfg->frozen_s))) ||
+        has_dead(self, 0u, DEAD_RATE_RAD_S, cfg->frozen_s) || has_dead(self, 1u, DEAD_FORCE_M_S2, cfg->frozen_s)) {
+        return JCAL_REJECT_FROZEN;
+    }
+    return repeated ? JCAL_REJECT_REPEATED : JCAL_REJECT_NONE;
+}
+
+/// What a reading shows beside the last one. If nothing repeats, as in most, nothing is suspected.
+static inline jcal_reject_t compare(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const float now[6],
+                                    const unsigned repeats[2], float dt_s)
+{
+    if ((repeats[0] | repeats[1]) != 0u) {
+        return check_repeats(self, cfg, now, repeats, dt_s);
+    }
+    self->suspicion[0] = NO_SUSPICION;
+    self->suspicion[1] = NO_SUSPICION;
+    self->total[0] = 0u;
+    self->total[1] = 0u;
+    return JCAL_REJECT_NONE;
+}
+
+/// How long the whole reading has stood still, in units of 1 / REPEATED_UNITS s.
+static uint16_t stood_for(const jcal_gate_sensor_t *self, float dt_s)
+{
+    return (uint16_t)jcal_min((float)self->repeated + (REPEATED_UNITS * dt_s) + 0.5f, (float)UINT16_MAX);
 }
 
 jcal_reject_t jcal_sensor_check(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const jcal_imu_t *imu,
@@ -297,27 +380,19 @@ jcal_reject_t jcal_sensor_check(jcal_gate_sensor_t *self, const jcal_gate_config
 {
     float now[6];
     unpack(imu, now);
-    const bool repeated = stands(&self->last[0], &now[0]) && stands(&self->last[3], &now[3]);
-    const bool clipped = is_clipped(self, cfg, now);
-    const float stood = repeated ? ((float)self->repeated + (REPEATED_UNITS * dt_s) + 0.5f) : 0.0f;
-    self->repeated = (uint16_t)jcal_min(stood, (float)UINT16_MAX);
+    const unsigned repeats[2] = {repeats_of(&self->last[0], &now[0]), repeats_of(&self->last[3], &now[3])};
+    const bool repeated = (repeats[0] & repeats[1] & BIT(ALL_STAND)) != 0u;
+    self->repeated = repeated ? stood_for(self, dt_s) : 0u;
     if (exceeds(&now[3], cfg->acc_max_m_s2)) {
         return JCAL_REJECT_OUT_OF_RANGE; /* no force that a sensor feels: nothing to learn of gravity or of its range */
     }
     self->gravity_m_s2 += share_of(dt_s, GRAVITY_TIME_S) * (jcal_vec3_norm(imu->acc_m_s2) - self->gravity_m_s2);
-    if (!repeated) {
-        follow_suspicions(self, now, dt_s);
-    }
-    remember(self, cfg, now);
-    if (is_beyond(cfg, now) || jcal_sensor_acc_looks_wrong(self) || jcal_sensor_gyr_looks_wrong(self)) {
+    const jcal_reject_t cause = compare(self, cfg, now, repeats, dt_s);
+    if (exceeds(&now[0], cfg->gyr_max_rad_s)) {
+        remember_beyond(self, cfg, now);
         return JCAL_REJECT_OUT_OF_RANGE;
     }
-    if (clipped) {
-        return JCAL_REJECT_SATURATED;
-    }
-    if (((float)self->repeated > (REPEATED_UNITS * cfg->frozen_s)) ||
-        has_dead(self, 0u, DEAD_RATE_RAD_S, cfg->frozen_s) || has_dead(self, 1u, DEAD_FORCE_M_S2, cfg->frozen_s)) {
-        return JCAL_REJECT_FROZEN;
-    }
-    return repeated ? JCAL_REJECT_REPEATED : JCAL_REJECT_NONE;
+    remember(self, cfg, now);
+    const bool wrong = jcal_sensor_acc_looks_wrong(self) || jcal_sensor_gyr_looks_wrong(self);
+    return wrong ? JCAL_REJECT_OUT_OF_RANGE : cause;
 }
