@@ -275,7 +275,7 @@ static void a_length_that_is_off_by_rounding_does_not_matter(void)
         start(&follower, joints[j], 5.0f);
         for (int k = 0; k < 200; ++k) {
             const pose_t pose = moving(0.05 * k, 0.5);
-            jcal_orientation_pair_t pair = pose_sensors(joints[j], &pose, (uint64_t)(50000 * (k + 1)));
+            jcal_orientation_pair_t pair = pose_sensors(joints[j], &pose, 50000u * (uint64_t)(k + 1));
             const float s = (k % 2 == 0) ? 1.04f : 0.96f;
             pair.q1 = jcal_quat(pair.q1.w * s, pair.q1.x * s, pair.q1.y * s, pair.q1.z * s);
             TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_joint_heading_push(&follower, &pair));

@@ -48,7 +48,7 @@ static motion_t motion_for(uint32_t mounting, double noise_rad_s)
 static jcal_hinge_sample_t sample_of(const motion_t *motion, uint32_t k)
 {
     const jcal_pair_t pair = motion_sample(motion, k);
-    jcal_hinge_sample_t s;
+    jcal_hinge_sample_t s = {0};
     s.w1 = pair.imu1.gyr_rad_s;
     s.w2 = pair.imu2.gyr_rad_s;
     s.a1 = pair.imu1.acc_m_s2;
