@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* How firmware uses jointcal. README.md shows the first function; a test compares them. */
+/* How firmware uses jointcal. README.md shows the first functions; a test compares them. */
 
 #include "jointcal/jointcal.h"
 
@@ -7,6 +7,13 @@
 #include <stdio.h>
 
 static jcal_hinge_t knee; /* a plain struct: no heap, no hidden state */
+
+/* Once, before the first reading. */
+static bool knee_start(void)
+{
+    const jcal_hinge_config_t config = jcal_hinge_config_default();
+    return jcal_hinge_init(&knee, &config) == JCAL_OK;
+}
 
 /* Call this for every pair of readings: rad/s, m/s^2, microseconds from any origin. */
 static bool knee_is_ready(uint64_t t_us, jcal_imu_t thigh, jcal_imu_t shank, jcal_hinge_result_t *result)
@@ -28,8 +35,7 @@ static jcal_imu_t segment(float tilt, float tilt_rate, float turn, float turn_ra
 
 int main(void)
 {
-    const jcal_hinge_config_t config = jcal_hinge_config_default();
-    if (jcal_hinge_init(&knee, &config) != JCAL_OK) {
+    if (!knee_start()) {
         return 1;
     }
     jcal_hinge_result_t result;

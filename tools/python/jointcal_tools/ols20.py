@@ -45,7 +45,7 @@ V_TOL = 1e-8  # relative to V: the paper's V_tol is absolute and has no value
 ARMIJO = 1e-4  # share of the linear decrease that a step must reach
 MAX_HALVINGS = 30
 MAX_ITERATIONS = 200
-STREAM_EPS = 3e-3  # rad^2/s^2, eps of docs/DESIGN.md 2.1
+STREAM_EPS = 3e-3  # rad^2/s^2, eps of docs/METHOD.md 2.1
 
 
 class Problem(NamedTuple):
@@ -118,7 +118,7 @@ def gyro_part(problem: Problem, j1: np.ndarray, j2: np.ndarray) -> tuple[np.ndar
 
 
 def stream_weight(problem: Problem) -> np.ndarray:
-    """Weight (n,) on |w1 x j1|^2 - |w2 x j2|^2 that makes it a proxy of (24); docs/DESIGN.md 2.1."""
+    """Weight (n,) on |w1 x j1|^2 - |w2 x j2|^2 that makes it a proxy of (24); docs/METHOD.md 2.1."""
     return 1.0 / np.sqrt((problem.gyr1**2).sum(axis=1) + (problem.gyr2**2).sum(axis=1) + problem.eps)
 
 
@@ -441,7 +441,7 @@ def algorithm4(rec: Recording, rng: np.random.Generator, n_max: int = 1000, e_ma
                        gyr_idx, acc_idx)
 
 
-# The stream engine's moments (docs/DESIGN.md 2.1), summed in float64 over a whole recording.
+# The stream engine's moments (docs/METHOD.md 2.1), summed in float64 over a whole recording.
 
 class Moments(NamedTuple):
     gyr: np.ndarray  # (12, 12) of the weighted features of w1 w1^T and -w2 w2^T

@@ -1,4 +1,4 @@
-"""Recordings of two IMUs as CSV files (columns by name, docs/DESIGN.md sections 5 and 6)."""
+"""Recordings of two IMUs as CSV files (columns by name, docs/METHOD.md sections 5 and 6)."""
 
 from __future__ import annotations
 
