@@ -25,7 +25,7 @@
 extern "C" {
 #endif
 
-/// Bytes of storage for n_max; usable in array sizes: 60 KB for 500.
+/// Bytes of storage for n_max; usable in array sizes: 96 KB for 500.
 #define JCAL_CENTER_WINDOW_STORAGE_BYTES(n_max) ((size_t)(n_max) * sizeof(jcal_kinematic_t))
 
 /// Bytes of storage that a config needs: JCAL_CENTER_WINDOW_STORAGE_BYTES of its field.

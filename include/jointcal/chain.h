@@ -40,11 +40,12 @@ typedef enum {
 } jcal_chain_place_t;
 #define JCAL_CHAIN_PLACES 4
 
+/// What is known of hip and knee. Its status is never JCAL_AMBIGUOUS.
 typedef struct {
     /// Its `weak` is JCAL_WEAK_CENTER1 for the hip and JCAL_WEAK_CENTER2 for the knee; its `hint` is the motion that would help that
     /// joint, segments 1 and 2 being its proximal and distal one; a triple that either joint rejects is rejected.
     jcal_head_t head;
-    bool has_places;  ///< False until both joints have an estimate; then everything below is zero.
+    bool has_places;  ///< False until both joints have an estimate; until then a place may be that of one joint alone.
     jcal_vec3_t place_m[JCAL_CHAIN_PLACES];  ///< By jcal_chain_place_t.
     float uncertainty_m[JCAL_CHAIN_PLACES];  ///< 95 % bounds; JCAL_BOUND_UNKNOWN_M if unknown.
     float segment_length_m;                  ///< Distance of hip and knee as estimated.

@@ -23,7 +23,7 @@ typedef struct {
     jcal_weak_t weak;      ///< The unknown that keeps the status from `ready`, if there is one.
     jcal_hint_t hint;      ///< The motion that would help.
     jcal_reason_t reason;  ///< Why the status is not `ready`.
-    uint32_t samples;      ///< Samples pushed.
+    uint32_t samples;      ///< Samples taken or rejected; those of `overrun` are not among them.
     uint32_t rejected;     ///< Samples rejected, all causes.
     uint32_t rejected_by[JCAL_REJECT_COUNT];
     uint32_t overrun;  ///< Samples that found the inbox full: push returned JCAL_ERR_FULL, and they are lost.

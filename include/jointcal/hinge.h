@@ -32,7 +32,7 @@ extern "C" {
 /// What both hinge engines say.
 typedef struct {
     jcal_head_t head;
-    bool has_axes;        ///< False until there is any estimate; then axis1, axis2 are zero.
+    bool has_axes;        ///< False until there is any estimate; until then axis1, axis2 are zero.
     bool paper_accepted;  ///< Window engine: what Algorithm 4 of [OLS20] says. Stream engine: false.
     /// Unit joint axis in sensor frame 1. Its sign follows axis1_toward of the config, or makes the largest component positive; once
     /// `ready` it stays as it is until `moved`.

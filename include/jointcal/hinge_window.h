@@ -2,7 +2,7 @@
 /// @file
 /// Hinge joint, window engine: [OLS20] as it is printed, over selected samples in storage of the caller.
 ///
-/// Every accepted sample is scored n samples later, selected or not (select.h), and followed by one Gauss-Newton step
+/// Every accepted sample is scored n samples later, selected or not ([OLS20] section 5), and followed by one Gauss-Newton step
 /// over the selected samples. Once in `solve_period_s` of sample time Algorithm 1 runs from a random start, in slices.
 ///
 /// Where the paper is silent or differs from this engine:

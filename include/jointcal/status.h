@@ -16,7 +16,7 @@ extern "C" {
 /// Result of a call. Zero is success, negative values are errors, positive values are notices.
 typedef enum {
     JCAL_OK = 0,            ///< Done.
-    JCAL_REJECTED = 1,      ///< push: the sample was understood and not used; the gate says why.
+    JCAL_REJECTED = 1,      ///< push: the sample was understood and not used; head.rejected_by counts why.
     JCAL_IDLE = 2,          ///< step: no sample was waiting.
     JCAL_ERR_ARG = -1,      ///< A pointer is null or an argument is outside its documented range.
     JCAL_ERR_CONFIG = -2,   ///< A field of the config is not finite or outside its documented range.
@@ -27,10 +27,10 @@ typedef enum {
 
 /// What is known about the joint.
 typedef enum {
-    JCAL_COLLECTING = 0,  ///< Some stated bound is above its limit; `weak` and `hint` say what is missing.
+    JCAL_COLLECTING = 0,  ///< Not known well enough; `reason`, `weak` and `hint` say why.
     JCAL_AMBIGUOUS = 1,   ///< Separated minima (or both sign pairings of a hinge) explain the data about equally.
     JCAL_READY = 2,       ///< Every bound holds, the data fit the model, nothing else explains them as well.
-    JCAL_MOVED = 3        ///< After ready, the data no longer fit: a sensor slipped.
+    JCAL_MOVED = 3        ///< After ready, the data no longer fit: a sensor slipped. It begins again.
 } jcal_calibration_t;
 
 /// Which engine made a result.

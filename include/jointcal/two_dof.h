@@ -31,7 +31,7 @@ extern "C" {
 /// What both engines say.
 typedef struct {
     jcal_head_t head;
-    bool has_axes;  ///< False until there is any estimate; then axes, heading and carrying angle are zero.
+    bool has_axes;  ///< False until there is any estimate; until then axes, heading and carrying angle are zero.
     /// Unit axis j1 in sensor frame 1. It points towards axis1_toward of the config, or else its largest component is positive; once
     /// the status is `ready` it stays as it is then, until `moved`.
     jcal_vec3_t axis1;

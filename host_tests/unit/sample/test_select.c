@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Tests of jointcal/select.h: scores and Algorithm 2 against brute force over all samples so far; the heap.
+/// Tests of sample/select.h: scores and Algorithm 2 against brute force over all samples so far; the heap.
 #include "sample/select.h"
 
 #include "sample/heap.h"

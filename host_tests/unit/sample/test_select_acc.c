@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Tests of jointcal/select.h: Algorithm 3 against brute force.
+/// Tests of sample/select.h: Algorithm 3 against brute force.
 #include "sample/select.h"
 
 #include "math/eig.h"

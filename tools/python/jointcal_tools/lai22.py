@@ -1,7 +1,6 @@
 """Float64 reference of LAI22 (two axes and heading offset of a 2-DoF joint), written from the paper alone.
 
-Equation, section and appendix numbers are LAI22's. E2 to E1 is D = Rz(delta), eq. (6). Misprints, each shown by
-finite differences or by numbers in host_tests/python/test_lai22.py:
+Equation, section and appendix numbers are LAI22's. E2 to E1 is D = Rz(delta), eq. (6). Misprints:
 
 - (A11) needs a minus sign: Phi - p with J^T J p = J^T e. As printed it climbs.
 - (A37) needs a plus sign; (A38) means arccos(j2,y); see lai22_appendix.
