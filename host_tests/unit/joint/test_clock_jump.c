@@ -57,6 +57,12 @@ static uint64_t low_half(uint64_t t_us, uint64_t jump_us, bool first)
 }
 
 static const jump_t JUMPS[] = {from_zero, one_wild, low_half};
+/* On targets the first kind only: the others take the same way through each engine. */
+#if defined(JCAL_TEST_SHORT)
+#define KINDS 1u
+#else
+#define KINDS (sizeof JUMPS / sizeof JUMPS[0])
+#endif
 
 typedef struct {
     double rate_hz;
@@ -255,7 +261,7 @@ static void what_is_ready_is_ready_again_within_a_second(void)
         {50.0, center_window_update, center_window_begin, center_window_found, "centre, window"},
     };
     for (unsigned e = 0; e < sizeof engines / sizeof engines[0]; ++e) {
-        for (unsigned j = 0; j < sizeof JUMPS / sizeof JUMPS[0]; ++j) {
+        for (unsigned j = 0; j < KINDS; ++j) {
             check(&engines[e], JUMPS[j]);
         }
     }
