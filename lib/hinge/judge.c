@@ -8,6 +8,7 @@
 #include "hinge/point.h"
 #include "hinge/refine.h"
 #include "hinge/search.h"
+#include "joint/hysteresis.h"
 #include "math/scalar.h"
 
 #include <float.h>
@@ -263,7 +264,7 @@ bool jcal_hinge_judge(const jcal_hinge_evidence_t *self, jcal_hinge_verdict_t *v
         report(self, verdict, why_nothing_is_known(self, &sign), &bounds, &sign);
         return false;
     }
-    const float slack = (verdict->status == (uint8_t)JCAL_READY) ? JCAL_HINGE_HYSTERESIS : 1.0f;
+    const float slack = (verdict->status == (uint8_t)JCAL_READY) ? JCAL_HYSTERESIS : 1.0f;
     report(self, verdict, find_reason(self, &bounds, &sign, slack), &bounds, &sign);
     return !is_hinted(self) && (sign.evidence < SIGN_EVIDENCE_TURN);
 }

@@ -13,9 +13,6 @@
 
 #include <stdbool.h>
 
-/// Leaving `ready` takes this much more than entering it: a wider bound, a worse fit, less evidence. As for the other joints.
-#define JCAL_HINGE_HYSTERESIS 1.2f
-
 /// What a judgement reads.
 typedef struct {
     const jcal_hinge_config_t *cfg;

@@ -7,6 +7,7 @@
 #include "hinge/stream.h"
 #include "hinge/window_cost.h"
 #include "hinge/window_solve.h"
+#include "joint/hysteresis.h"
 #include "joint/sign.h"
 #include "jointcal/vec3.h"
 #include "math/angle.h"
@@ -281,7 +282,7 @@ static void judge_beside_guard(const jcal_hinge_window_t *self, jcal_hinge_resul
     }
     const bool same_pairing = (jcal_vec3_dot(guard1, result->axis1) * jcal_vec3_dot(guard2, result->axis2)) > 0.0f;
     const float worst_rad = jcal_max(result->uncertainty1_rad, result->uncertainty2_rad);
-    const float limit_rad = (self->was_ready ? JCAL_HINGE_HYSTERESIS : 1.0f) * self->cfg.hinge.max_bound_rad;
+    const float limit_rad = (self->was_ready ? JCAL_HYSTERESIS : 1.0f) * self->cfg.hinge.max_bound_rad;
     if (!same_pairing) {
         result->head.status = JCAL_AMBIGUOUS;
         result->head.reason = JCAL_REASON_SIGN_OPEN;

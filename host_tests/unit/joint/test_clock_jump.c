@@ -5,12 +5,6 @@
 #include "jointcal/jointcal.h"
 #include "unit/center/motion.h"
 #include "unit/hinge/motion.h"
-/* Both motions have faults of the same names. */
-#define FAULT_LENGTH TWO_DOF_FAULT_LENGTH
-#define FAULT_FROZEN TWO_DOF_FAULT_FROZEN
-#define FAULT_CLOCK TWO_DOF_FAULT_CLOCK
-#define FAULT_NAN TWO_DOF_FAULT_NAN
-#define FAULTS TWO_DOF_FAULTS
 #include "unit/two_dof/motion.h"
 
 #include <string.h>
