@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Bounds of the axes. See functional/bounds.h.
+#include "functional/bounds.h"
+
+#include "functional/axes.h"
+#include "functional/headings.h"
+#include "functional/model.h"
+#include "jointcal/vec3.h"
+#include "math/chol.h"
+#include "math/plane.h"
+#include "math/scalar.h"
+#include "math/sphere.h"
+#include "math/sym.h"
+
+#include <float.h>
+
+/// What is never known, rad: 1 deg.
+#define BOUND_FLOOR_RAD 0.0174532925f
+
+/// Square of the share of a residual that never averages out, of rigid mounts and of people, and seconds of motion that one
+/// independent reading of all of it takes. A mean squared residual of the rates of PERSON is a person's.
+#define LASTING_RIGID 0.25f
+#define LASTING_PERSON 1.0f
+#define PERSON_RATE 0.01f
+#define READING_S 2.5f
+
+/// Where the rates agree about the axis to this share of themselves, the rest is at least this wide: never less than the floor.
+#define BOUND_MAX_RAD JCAL_BOUND_UNKNOWN_RAD
+
+void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                                    float *out)
+{
+    const float scale = point->weight[JCAL_FAMILY_RATE] / jcal_max(sums->rate2, FLT_MIN);
+    const float turn_scale = point->weight[JCAL_FAMILY_TURN] / jcal_max(sums->motion_s, FLT_MIN);
+    const jcal_tangent_t t1 = jcal_sphere_tangent(point->j1);
+    const jcal_tangent_t t2 = jcal_sphere_tangent(point->j2);
+    const jcal_vec3_t left[4] = {t1.u, t1.v, point->j1, point->j1};
+    const jcal_vec3_t right[4] = {point->j2, point->j2, t2.u, t2.v};
+    for (size_t i = 0u; i < 4u; ++i) {
+        float m[9];
+        float n[9];
+        jcal_functional_between_rates(sums->block[b].rate, left[i], right[i], scale, m);
+        jcal_functional_times_transposed(point->turn[b], m, n);
+        jcal_functional_turn_slope(n, &out[3u * i]);
+        const jcal_plane_t pull = {jcal_functional_between(sums->block[b].turn_re, left[i], right[i]),
+                                   jcal_functional_between(sums->block[b].turn_im, left[i], right[i])};
+        out[(3u * i) + 2u] += turn_scale * jcal_plane_times(point->heading[b], pull).im;
+    }
+}
+
+void jcal_functional_bound_nuisance(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                                    float *out)
+{
+    jcal_functional_grip_t grip;
+    jcal_functional_grip(sums, point, b, &grip);
+    jcal_functional_turn_hessian(grip.n, out);
+    const jcal_plane_t heading = point->heading[b];
+    const float turn = jcal_plane_times(heading, jcal_functional_turn_pull(sums, point, b)).re;
+    const float lever = jcal_plane_times(heading, jcal_functional_lever_pull(sums, point, b)).re;
+    /* Heading and turn go together about z: what ties them does not count there. */
+    out[5] += jcal_max(turn, 0.0f) + jcal_max(lever, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
+}
+
+/// hessian <- what is left of it when block b's turn is free.
+static void take_out(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b, float *hessian)
+{
+    if (!(sums->block[b].motion_s > JCAL_FUNCTIONAL_BLOCK_MIN_S)) {
+        return;
+    }
+    float q[12];
+    float nuisance[JCAL_SYM_SIZE(3u)];
+    jcal_functional_bound_coupling(sums, point, b, q);
+    jcal_functional_bound_nuisance(sums, point, b, nuisance);
+    if (jcal_chol_factor(nuisance, 3u, nuisance, NULL) != JCAL_OK) {
+        jcal_sym_zero(hessian, 4u); /* the block is not at a minimum: nothing is known */
+        return;
+    }
+    for (size_t i = 0u; i < 4u; ++i) {
+        float solved[3];
+        jcal_chol_solve(nuisance, 3u, &q[3u * i], solved);
+        for (size_t k = 0u; k <= i; ++k) {
+            const float *const qk = &q[3u * k];
+            hessian[jcal_sym_at(i, k)] -= (solved[0] * qk[0]) + (solved[1] * qk[1]) + (solved[2] * qk[2]);
+        }
+    }
+}
+
+/// Root of the larger eigenvalue of a 2 x 2 covariance.
+static float widest(float p00, float p01, float p11)
+{
+    const float mean = 0.5f * (p00 + p11);
+    const float half = 0.5f * (p00 - p11);
+    return sqrtf(jcal_max(mean + sqrtf((half * half) + (p01 * p01)), 0.0f));
+}
+
+/// Bounds from what is left of the Hessian.
+static void finish(jcal_functional_t *self)
+{
+    jcal_functional_verdict_t *const verdict = &self->verdict;
+    verdict->bound1_rad = BOUND_MAX_RAD;
+    verdict->bound2_rad = BOUND_MAX_RAD;
+    float factor[JCAL_SYM_SIZE(4u)];
+    if (jcal_chol_factor(verdict->hessian, 4u, factor, NULL) == JCAL_OK) {
+        float p[JCAL_SYM_SIZE(4u)];
+        jcal_chol_inverse(factor, 4u, p);
+        const float person = jcal_min(self->point.size[JCAL_FAMILY_RATE] / PERSON_RATE, 1.0f);
+        const float lasting = LASTING_RIGID + ((LASTING_PERSON - LASTING_RIGID) * person);
+        const float growth = sqrtf(lasting + (READING_S / jcal_max(self->sums.motion_s, FLT_MIN)));
+        verdict->bound1_rad = jcal_min(BOUND_FLOOR_RAD + (growth * widest(p[0], p[1], p[2])), BOUND_MAX_RAD);
+        verdict->bound2_rad = jcal_min(BOUND_FLOOR_RAD + (growth * widest(p[5], p[8], p[9])), BOUND_MAX_RAD);
+    }
+    const float bound = jcal_max(verdict->bound1_rad, verdict->bound2_rad);
+    const float straight = 2.0f * self->point.size[JCAL_FAMILY_TURN];
+    const float bent = 0.5f * verdict->bend_rad * bound;
+    verdict->flexion_rad = bound * sqrtf(straight + (bent * bent));
+}
+
+void jcal_functional_bound(jcal_functional_t *self, unsigned part)
+{
+    if (part == 0u) {
+        jcal_functional_cross_t x;
+        jcal_functional_quadric_t h;
+        float slope[4];
+        jcal_functional_cross(&self->sums, &self->point, &x);
+        jcal_functional_quadric(&self->sums, &x, &self->point, &h);
+        jcal_functional_tangent_hessian(&h, self->point.j1, self->point.j2, true, self->verdict.hessian, slope);
+    } else if (part <= JCAL_FUNCTIONAL_BLOCKS) {
+        take_out(&self->sums, &self->point, part - 1u, self->verdict.hessian);
+    } else {
+        finish(self);
+    }
+}

@@ -1,0 +1,228 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Readiness of the functional joint. See functional/judge.h.
+#include "functional/judge.h"
+
+#include "functional/axes.h"
+#include "functional/model.h"
+#include "joint/hysteresis.h"
+#include "joint/sign.h"
+#include "jointcal/vec3.h"
+#include "math/eig.h"
+#include "math/scalar.h"
+#include "math/sym.h"
+
+#include <float.h>
+
+#define DEGREE 0.0174532925f
+
+/// Judgements in a row, a quarter of a second apart, that must agree before `ready`.
+#define AGREED_MIN 3u
+
+/// A specific force whose median is further than this from 9.81 m/s^2 is not to be trusted.
+#define GRAVITY_OFF_MAX 0.6f
+/// The axis must stay one direction in space to this, rad.
+#define LEANING_MAX (20.0f * DEGREE)
+/// Logarithm of the odds that the pairing of signs needs.
+#define EVIDENCE_MIN 7.0f
+/// What one fixed rotation between both rates must leave of the smaller one, or the joint does not move.
+#define STIFFNESS_MIN 0.05f
+
+/// A residual of the rates below this share of them, and relative motion that is along the axis to this share, is a rigid mount's.
+#define RIGID_RATE2 (0.08f * 0.08f)
+#define RIGID_SHARE 0.97f
+/// Rigid mounts: seconds of motion, bending, and the share of the centre's motion that may be left.
+#define RIGID_MOTION_S 1.0f
+#define RIGID_BEND_RAD (10.0f * DEGREE)
+#define RIGID_LACK 0.25f
+
+/// People: the same, the share of the relative motion that must be along the axis, and ...
+#define PERSON_MOTION_S 3.0f
+#define PERSON_BEND_RAD (15.0f * DEGREE)
+#define PERSON_SHARE 0.8f
+#define PERSON_LACK 0.04f
+/// ... noise of the centre's velocity, squared, (m/s)^2, what the other pairing must leave beside this one, and evidence of that kind.
+#define SPEED_NOISE2 6e-4f
+#define OPPOSITE_MIN 4.0f
+#define OPPOSITE_LEAST2 3e-4f
+#define LEVER_EVIDENCE_MIN 3.0f
+/// No axis of a person is good for angles beyond this bound, rad, whatever the angle's own bound says.
+#define BOUND_FOR_FLEXION_RAD (10.0f * DEGREE)
+
+/// trace of a packed 3 x 3.
+static float trace3(const float *m)
+{
+    return m[0] + m[2] + m[5];
+}
+
+/// j' M j of sum (w w') = tr(A) / 2 I - A, A packed.
+static float along_of(const float *a, jcal_vec3_t j)
+{
+    const float inside = (a[0] * j.x * j.x) + (a[2] * j.y * j.y) + (a[5] * j.z * j.z) +
+                         (2.0f * ((a[1] * j.x * j.y) + (a[3] * j.x * j.z) + (a[4] * j.y * j.z)));
+    return (0.5f * trace3(a)) - inside;
+}
+
+/// Largest tr(R' G) over rotations R: the sum of the singular values of G (3 x 3), the last with the sign of the determinant.
+static float best_alignment(const float *g)
+{
+    float square[JCAL_SYM_SIZE(3u)];
+    for (size_t i = 0u; i < 3u; ++i) {
+        for (size_t k = 0u; k <= i; ++k) {
+            square[jcal_sym_at(i, k)] = (g[i] * g[k]) + (g[3u + i] * g[3u + k]) + (g[6u + i] * g[6u + k]);
+        }
+    }
+    float values[3];
+    float vectors[9];
+    if (jcal_eig_symmetric(square, 3u, values, vectors) != JCAL_OK) {
+        return 0.0f;
+    }
+    const jcal_vec3_t x = {g[0], g[1], g[2]};
+    const jcal_vec3_t y = {g[3], g[4], g[5]};
+    const jcal_vec3_t z = {g[6], g[7], g[8]};
+    const float least = sqrtf(jcal_max(values[2], 0.0f));
+    const float sign = (jcal_vec3_dot(x, jcal_vec3_cross(y, z)) < 0.0f) ? -1.0f : 1.0f;
+    return sqrtf(jcal_max(values[0], 0.0f)) + sqrtf(jcal_max(values[1], 0.0f)) + (sign * least);
+}
+
+/// How far the joint bent: from X of the orientations, the sum of the two smaller singular values of which is what bending leaves.
+static float bend_of(const float *x, float along, float motion_s)
+{
+    const jcal_vec3_t a = {x[0], x[1], x[2]};
+    const jcal_vec3_t b = {x[3], x[4], x[5]};
+    const jcal_vec3_t c = {x[6], x[7], x[8]};
+    const float squares = jcal_vec3_dot(a, a) + jcal_vec3_dot(b, b) + jcal_vec3_dot(c, c);
+    const float product = fabsf(jcal_vec3_dot(a, jcal_vec3_cross(b, c))) / jcal_max(along, FLT_MIN);
+    const float both = sqrtf(jcal_max(squares - (along * along) + (2.0f * product), 0.0f));
+    return sqrtf(jcal_max(2.0f - (both / jcal_max(motion_s, FLT_MIN)), 0.0f));
+}
+
+void jcal_functional_describe(jcal_functional_t *self)
+{
+    const jcal_functional_sums_t *const sums = &self->sums;
+    const jcal_functional_point_t *const point = &self->point;
+    jcal_functional_cross_t x;
+    jcal_functional_cross(sums, point, &x);
+    const float across =
+        2.0f * jcal_max(sums->rate2, FLT_MIN) * jcal_functional_rate_size(sums, x.rate, point->j1, point->j2);
+    const float along = along_of(sums->rate1, point->j1) + along_of(sums->rate2nd, point->j2) -
+                        (2.0f * jcal_functional_between(sums->along, point->j1, point->j2));
+    self->verdict.share = along / jcal_max(along + jcal_max(across, 0.0f), FLT_MIN);
+    self->verdict.bend_rad = bend_of(x.turn, jcal_functional_between(x.turn, point->j1, point->j2), sums->motion_s);
+    const float rate1 = 0.5f * trace3(sums->rate1);
+    const float rate2 = 0.5f * trace3(sums->rate2nd);
+    self->verdict.stiffness =
+        (rate1 + rate2 - (2.0f * best_alignment(sums->along))) / jcal_max(jcal_min(rate1, rate2), FLT_MIN);
+}
+
+bool jcal_functional_obeys(jcal_sign_hint_t hint, jcal_vec3_t axis1, jcal_vec3_t axis2)
+{
+    if (hint == JCAL_SIGN_UNKNOWN) {
+        return true;
+    }
+    const bool same = (jcal_sign_main(axis1) * jcal_sign_main(axis2)) > 0.0f;
+    return same == (hint == JCAL_SIGN_SAME);
+}
+
+/// True if both sensors' accelerations belong to one joint.
+static bool is_one_joint(const jcal_functional_t *self, float slack)
+{
+    const float speed2 = jcal_max(self->point.speed2, FLT_MIN);
+    const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
+    if (self->verdict.is_rigid) {
+        return left <= (slack * RIGID_LACK * speed2);
+    }
+    return (left - SPEED_NOISE2) <= (slack * PERSON_LACK * speed2);
+}
+
+/// True if the pairing of signs is certain.
+static bool is_paired(const jcal_functional_t *self, float slack)
+{
+    const jcal_functional_verdict_t *const verdict = &self->verdict;
+    const float evidence = verdict->evidence[0] + verdict->evidence[1] + verdict->evidence[2];
+    if (self->cfg.sign_hint != JCAL_SIGN_UNKNOWN) {
+        return evidence > -EVIDENCE_MIN; /* the user said it; data that insist on the other pairing contradict */
+    }
+    if (!((slack * evidence) >= EVIDENCE_MIN)) {
+        return false;
+    }
+    if (verdict->is_rigid) {
+        return true;
+    }
+    const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
+    return ((slack * (verdict->opposite - SPEED_NOISE2)) >= (OPPOSITE_MIN * jcal_max(left, OPPOSITE_LEAST2))) &&
+           ((slack * verdict->evidence[JCAL_FAMILY_LEVER]) >= LEVER_EVIDENCE_MIN);
+}
+
+/// The first thing that keeps the estimate from being ready, the worst first.
+static jcal_reason_t find_reason(const jcal_functional_t *self, float slack)
+{
+    const jcal_functional_verdict_t *const verdict = &self->verdict;
+    const bool rigid = verdict->is_rigid;
+    if (self->gravity_off > (slack * GRAVITY_OFF_MAX)) {
+        return JCAL_REASON_GRAVITY_OFF;
+    }
+    if ((slack * self->sums.motion_s) < (rigid ? RIGID_MOTION_S : PERSON_MOTION_S)) {
+        return JCAL_REASON_NO_MOTION;
+    }
+    if (!((2.0f * self->point.size[JCAL_FAMILY_TURN]) <= (slack * LEANING_MAX * LEANING_MAX))) {
+        return JCAL_REASON_DOES_NOT_FIT;
+    }
+    if (!is_one_joint(self, slack)) {
+        return JCAL_REASON_NOT_ONE_JOINT;
+    }
+    if (!((slack * verdict->bend_rad) >= (rigid ? RIGID_BEND_RAD : PERSON_BEND_RAD)) ||
+        !((slack * verdict->stiffness) >= STIFFNESS_MIN)) {
+        return JCAL_REASON_NO_BEND;
+    }
+    if (!rigid && !((slack * verdict->share) >= PERSON_SHARE)) {
+        return JCAL_REASON_MORE_AXES;
+    }
+    if (!is_paired(self, slack)) {
+        return JCAL_REASON_SIGN_OPEN;
+    }
+    return (verdict->for_axes || verdict->for_flexion) ? JCAL_REASON_NONE : JCAL_REASON_UNCERTAIN;
+}
+
+static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
+{
+    switch (reason) {
+    case JCAL_REASON_NONE:
+        return JCAL_HINT_NONE;
+    case JCAL_REASON_SIGN_OPEN:
+        return JCAL_HINT_MOVE_FASTER;
+    case JCAL_REASON_UNCERTAIN:
+        return (weak == JCAL_WEAK_AXIS1) ? JCAL_HINT_MOVE_SEGMENT1 : JCAL_HINT_MOVE_SEGMENT2;
+    case JCAL_REASON_NO_MOTION:
+    case JCAL_REASON_NO_BEND:
+    case JCAL_REASON_MORE_AXES:
+        return JCAL_HINT_MOVE_JOINT;
+    default:
+        return JCAL_HINT_CHECK_SENSORS;
+    }
+}
+
+void jcal_functional_judge(jcal_functional_t *self)
+{
+    jcal_functional_verdict_t *const verdict = &self->verdict;
+    const bool was_ready = verdict->status == (uint8_t)JCAL_READY;
+    const float slack = was_ready ? JCAL_HYSTERESIS : 1.0f;
+    const float bound = jcal_max(verdict->bound1_rad, verdict->bound2_rad);
+    verdict->is_rigid = (self->point.size[JCAL_FAMILY_RATE] <= RIGID_RATE2) && (verdict->share >= RIGID_SHARE);
+    verdict->for_axes = bound <= (slack * self->cfg.max_bound_rad);
+    verdict->for_flexion =
+        (verdict->flexion_rad <= (slack * self->cfg.max_flexion_rad)) && (bound <= (slack * BOUND_FOR_FLEXION_RAD));
+    const jcal_reason_t found = find_reason(self, slack);
+    verdict->agreed =
+        (uint8_t)((found != JCAL_REASON_NONE) ? 0u : jcal_min((float)verdict->agreed + 1.0f, (float)AGREED_MIN));
+    const bool ready = verdict->agreed >= AGREED_MIN;
+    const jcal_reason_t reason = (!ready && (found == JCAL_REASON_NONE)) ? JCAL_REASON_UNCERTAIN : found;
+    const jcal_weak_t axis = (verdict->bound1_rad > verdict->bound2_rad) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
+    const jcal_weak_t weak =
+        (reason == JCAL_REASON_NONE) ? JCAL_WEAK_NONE : ((reason == JCAL_REASON_SIGN_OPEN) ? JCAL_WEAK_SIGN : axis);
+    verdict->status =
+        (uint8_t)(ready ? JCAL_READY : ((reason == JCAL_REASON_SIGN_OPEN) ? JCAL_AMBIGUOUS : JCAL_COLLECTING));
+    verdict->reason = (uint8_t)reason;
+    verdict->weak = (uint8_t)weak;
+    verdict->hint = (uint8_t)hint_for(reason, weak);
+}

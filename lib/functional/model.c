@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// The sums seen from a solution. See functional/model.h.
+#include "functional/model.h"
+
+#include "math/scalar.h"
+#include "math/sym.h"
+
+/// Less motion than this, s, is none.
+#define MOTION_MIN_S 1e-6f
+
+void jcal_functional_turned(float *out, const float *re, const float *im, jcal_plane_t heading, size_t n)
+{
+    for (size_t i = 0u; i < n; ++i) {
+        out[i] += (heading.re * re[i]) - (heading.im * im[i]);
+    }
+}
+
+/// Row of spin1's element (a, i) and column of spin2's element (b, k) in the products of rates.
+static size_t rate_at(size_t a, size_t i, size_t b, size_t k)
+{
+    return (9u * ((3u * a) + i)) + (3u * b) + k;
+}
+
+void jcal_functional_level_rates(float *out, const float *rate, jcal_plane_t heading)
+{
+    for (size_t i = 0u; i < 3u; ++i) {
+        for (size_t k = 0u; k < 3u; ++k) {
+            const float re = rate[rate_at(0u, i, 0u, k)] + rate[rate_at(1u, i, 1u, k)];
+            const float im = rate[rate_at(0u, i, 1u, k)] - rate[rate_at(1u, i, 0u, k)];
+            out[(3u * i) + k] += (heading.re * re) - (heading.im * im);
+        }
+    }
+}
+
+void jcal_functional_free_rates(float *out, const float *rate, const float *turn)
+{
+    for (size_t a = 0u; a < 3u; ++a) {
+        const float *const d = &turn[3u * a];
+        for (size_t i = 0u; i < 3u; ++i) {
+            const float *const row = &rate[9u * ((3u * a) + i)];
+            out[3u * i] += (d[0] * row[0]) + (d[1] * row[3]) + (d[2] * row[6]);
+            out[(3u * i) + 1u] += (d[0] * row[1]) + (d[1] * row[4]) + (d[2] * row[7]);
+            out[(3u * i) + 2u] += (d[0] * row[2]) + (d[1] * row[5]) + (d[2] * row[8]);
+        }
+    }
+}
+
+void jcal_functional_old_rate_up(const jcal_functional_sums_t *sums, float *out)
+{
+    for (size_t i = 0u; i < 3u; ++i) {
+        for (size_t k = 0u; k < 3u; ++k) {
+            const size_t at = rate_at(2u, i, 2u, k);
+            out[(3u * i) + k] = sums->rate_up[(3u * i) + k] - sums->block[0].rate[at] - sums->block[1].rate[at];
+        }
+    }
+}
+
+/// x (n) <- a + b.
+static void sum_of(float *x, const float *a, const float *b, size_t n)
+{
+    for (size_t i = 0u; i < n; ++i) {
+        x[i] = a[i] + b[i];
+    }
+}
+
+void jcal_functional_cross_turn(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, float *x)
+{
+    sum_of(x, sums->turn_up, sums->old_turn, 9u);
+    for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
+        jcal_functional_turned(x, sums->block[b].turn_re, sums->block[b].turn_im, point->heading[b], 9u);
+    }
+}
+
+void jcal_functional_cross_lever(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, float *x)
+{
+    sum_of(x, sums->lever_up, sums->old_lever, 16u);
+    for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
+        jcal_functional_turned(x, sums->block[b].lever_re, sums->block[b].lever_im, point->heading[b], 16u);
+    }
+}
+
+void jcal_functional_cross_rate(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, float *x)
+{
+    for (size_t i = 0u; i < 9u; ++i) {
+        x[i] = sums->rate_free[i];
+    }
+    for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
+        jcal_functional_free_rates(x, sums->block[b].rate, point->turn[b]);
+    }
+}
+
+void jcal_functional_cross_level(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, float *x)
+{
+    sum_of(x, sums->rate_up, sums->old_rate, 9u);
+    for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
+        jcal_functional_level_rates(x, sums->block[b].rate, point->heading[b]);
+    }
+}
+
+void jcal_functional_about_z(jcal_plane_t heading, float *out)
+{
+    const float turn[9] = {heading.re, -heading.im, 0.0f, heading.im, heading.re, 0.0f, 0.0f, 0.0f, 1.0f};
+    for (size_t i = 0u; i < 9u; ++i) {
+        out[i] = turn[i];
+    }
+}
+
+void jcal_functional_times_transposed(const float *a, const float *b, float *out)
+{
+    for (size_t i = 0u; i < 3u; ++i) {
+        for (size_t k = 0u; k < 3u; ++k) {
+            out[(3u * i) + k] = (a[i] * b[k]) + (a[3u + i] * b[3u + k]) + (a[6u + i] * b[6u + k]);
+        }
+    }
+}
+
+void jcal_functional_between_rates(const float *rate, jcal_vec3_t j1, jcal_vec3_t j2, float scale, float *out)
+{
+    const float s1[3] = {scale * j1.x, scale * j1.y, scale * j1.z};
+    for (size_t a = 0u; a < 3u; ++a) {
+        const float *const r0 = &rate[27u * a];
+        const float *const r1 = &rate[(27u * a) + 9u];
+        const float *const r2 = &rate[(27u * a) + 18u];
+        for (size_t b = 0u; b < 3u; ++b) {
+            const size_t k = 3u * b;
+            const float x = (s1[0] * r0[k]) + (s1[1] * r1[k]) + (s1[2] * r2[k]);
+            const float y = (s1[0] * r0[k + 1u]) + (s1[1] * r1[k + 1u]) + (s1[2] * r2[k + 1u]);
+            const float z = (s1[0] * r0[k + 2u]) + (s1[1] * r1[k + 2u]) + (s1[2] * r2[k + 2u]);
+            out[(3u * a) + b] = (x * j2.x) + (y * j2.y) + (z * j2.z);
+        }
+    }
+}
+
+float jcal_functional_turn_size(const jcal_functional_sums_t *sums, const float *x, jcal_vec3_t j1, jcal_vec3_t j2)
+{
+    return 1.0f - (jcal_functional_between(x, j1, j2) / jcal_max(sums->motion_s, MOTION_MIN_S));
+}
+
+/// j' M j, M (3 x 3, packed).
+static float squared(const float *m, jcal_vec3_t j)
+{
+    return (m[0] * j.x * j.x) + (m[2] * j.y * j.y) + (m[5] * j.z * j.z) +
+           (2.0f * ((m[1] * j.x * j.y) + (m[3] * j.x * j.z) + (m[4] * j.y * j.z)));
+}
+
+float jcal_functional_rate_size(const jcal_functional_sums_t *sums, const float *x, jcal_vec3_t j1, jcal_vec3_t j2)
+{
+    const float own = squared(sums->rate1, j1) + squared(sums->rate2nd, j2);
+    const float left = own - (2.0f * jcal_functional_between(x, j1, j2));
+    return 0.5f * left / jcal_max(sums->rate2, MOTION_MIN_S);
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Other headings: where the cost has its minima is not known beforehand, so solutions are begun at eight of them. Private.
+#ifndef JCAL_FUNCTIONAL_SEARCH_H
+#define JCAL_FUNCTIONAL_SEARCH_H
+
+#include "jointcal/private/functional/stream.h"
+
+#include <stdbool.h>
+
+/// Slices of one trial.
+#define JCAL_FUNCTIONAL_TRIAL_SLICES 12u
+
+/// Trials before the first estimate is taken: eight headings with the two pairs of axes that are known least.
+#define JCAL_FUNCTIONAL_FIRST_TRIALS 16u
+
+/// Slice `part` of a round that improves `point`: 0 levers, 1 axes, 2 and 3 the headings of both blocks. Cost: at most 600 multiply-adds.
+void jcal_functional_round(const jcal_functional_sums_t *sums, jcal_functional_point_t *point, unsigned part);
+
+/// Slice `part` of a trial: 0 begins it, the others are rounds, the last one compares. True if the trial became the estimate.
+bool jcal_functional_try(jcal_functional_search_t *self, const jcal_functional_sums_t *sums,
+                         jcal_functional_point_t *estimate, unsigned part);
+
+#endif /* JCAL_FUNCTIONAL_SEARCH_H */

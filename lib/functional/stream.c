@@ -1,0 +1,262 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// The functional joint: ticks into sums, and the schedule of the work. Method: docs/METHOD_PEOPLE.md.
+#include "functional/axes.h"
+#include "functional/bounds.h"
+#include "functional/headings.h"
+#include "functional/judge.h"
+#include "functional/rival.h"
+#include "functional/search.h"
+#include "functional/sums.h"
+#include "functional/track.h"
+#include "joint/sign.h"
+#include "jointcal/functional.h"
+#include "jointcal/vec3.h"
+#include "math/clear.h"
+#include "math/scalar.h"
+#include "math/sphere.h"
+
+#include <float.h>
+#include <stddef.h>
+
+#define MICROSECONDS 1e-6f
+
+/// Squared rates of both sensors at which a moment counts half, (rad/s)^2, and the time that they are smoothed over, s.
+#define REST_RATE2 0.3f
+#define RATE_SMOOTHING_S 0.1f
+
+/// Motion before anything is estimated, s.
+#define MOTION_FIRST_S 0.7f
+/// All sums are halved when they hold this much motion, s: what is learnt of a person follows slow change.
+#define MOTION_MAX_S 60.0f
+
+/// Time from one judgement to the next, s, and what a slice costs once ready.
+#define JUDGE_EVERY_S 0.25f
+#define PRICE_READY 4.0f
+/// Slices that may be saved up, and ticks further apart than this, s, have nothing between them.
+#define CREDIT_MAX 8.0f
+#define TICK_MAX_S 0.4f
+
+/// Evidence at which the other pairing takes over.
+#define EVIDENCE_TURN (-1.0f)
+
+/// Slices of a judgement: two rounds, a trial while headings may be begun anew, the other pairing, bounds, two of judging.
+enum {
+    ROUNDS_END = 8,
+    TRIAL_END = ROUNDS_END + JCAL_FUNCTIONAL_TRIAL_SLICES,
+    RIVAL_END = TRIAL_END + JCAL_FUNCTIONAL_RIVAL_SLICES,
+    BOUNDS_END = RIVAL_END + JCAL_FUNCTIONAL_BOUND_SLICES,
+    DESCRIBED = BOUNDS_END,
+    JUDGED,
+    IDLE
+};
+
+typedef char jcal_functional_fits_its_budget[(sizeof(jcal_functional_t) <= 3072u) ? 1 : -1];
+
+static void start(jcal_functional_t *self, const jcal_functional_config_t *config)
+{
+    const jcal_functional_config_t cfg = *config; /* may be self->cfg */
+    jcal_clear(self, sizeof *self);
+    self->cfg = cfg;
+    self->point.j1 = jcal_vec3(0.0f, 0.0f, 1.0f);
+    self->point.j2 = jcal_vec3(0.0f, 0.0f, 1.0f);
+    for (unsigned b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
+        self->point.heading[b].re = 1.0f;
+    }
+    self->track.heading.re = 1.0f;
+    self->verdict.bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
+    self->verdict.bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
+    self->verdict.flexion_rad = JCAL_BOUND_UNKNOWN_RAD;
+    self->verdict.reason = (uint8_t)JCAL_REASON_NO_DATA;
+    self->verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+    self->verdict.weak = (uint8_t)JCAL_WEAK_AXIS1;
+    self->slice = (uint8_t)IDLE;
+}
+
+jcal_status_t jcal_functional_init(jcal_functional_t *self, const jcal_functional_config_t *config)
+{
+    if ((self == NULL) || (config == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_functional_config_check(config) != NULL) {
+        return JCAL_ERR_CONFIG;
+    }
+    start(self, config);
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_functional_reset(jcal_functional_t *self)
+{
+    return (self == NULL) ? JCAL_ERR_ARG : jcal_functional_init(self, &self->cfg);
+}
+
+/// All numbers of a tick summed: NaN or infinite if one of them is.
+static bool is_finite(const jcal_tick_t *tick)
+{
+    float sum = tick->period_s + tick->rate.x + tick->rate.y + tick->rate.z + tick->gravity_m_s2;
+    for (size_t i = 0u; i < 9u; ++i) {
+        sum += (0.0f * tick->turn[i]) + (0.0f * tick->spin[i]) + (0.0f * tick->swing[i]);
+    }
+    sum += (0.0f * tick->speed[0]) + (0.0f * tick->speed[1]) + (0.0f * tick->speed[2]);
+    return jcal_is_finite(sum);
+}
+
+/// Features began anew: the headings of before are not those of now.
+static void cut(jcal_functional_t *self)
+{
+    if (self->sums.block[0].motion_s > 0.0f) {
+        self->merged = self->merged || (self->sums.block[1].motion_s > 0.0f);
+        jcal_functional_sums_close(&self->sums, &self->point);
+    }
+    jcal_functional_track_clear(self);
+}
+
+static void add_up(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
+{
+    const float period_s = tick1->period_s;
+    const float rate2 = jcal_vec3_dot(tick1->rate, tick1->rate) + jcal_vec3_dot(tick2->rate, tick2->rate);
+    self->rate2 += (period_s / (period_s + RATE_SMOOTHING_S)) * (rate2 - self->rate2);
+    const float share = 1.0f / (self->rate2 + REST_RATE2);
+    const jcal_functional_weights_t weights = {
+        .motion_s = period_s * self->rate2 * share,
+        .spin = period_s * self->rate2 * share * share,
+        .rate2 = self->rate2,
+    };
+    self->motion_s += weights.motion_s;
+    jcal_functional_sums_add(&self->sums, tick1, tick2, &weights);
+    jcal_functional_track_add(self, tick1, tick2, weights.motion_s);
+    if (jcal_functional_sums_full(&self->sums)) {
+        self->merged = self->merged || (self->sums.block[1].motion_s > 0.0f);
+        jcal_functional_sums_close(&self->sums, &self->point);
+        if (self->sums.motion_s > MOTION_MAX_S) {
+            jcal_functional_sums_fade(&self->sums, 0.5f);
+        }
+    }
+}
+
+jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
+{
+    if ((self == NULL) || (tick1 == NULL) || (tick2 == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    const bool in_order = !self->has_tick || (tick1->t_us > self->last_us);
+    if ((tick1->t_us != tick2->t_us) || !in_order || !is_finite(tick1) || !is_finite(tick2)) {
+        return JCAL_REJECTED;
+    }
+    const bool anew = !self->has_tick || (tick1->epoch != self->epoch1) || (tick2->epoch != self->epoch2);
+    if (anew && self->has_tick) {
+        cut(self);
+    }
+    self->has_tick = true;
+    self->epoch1 = tick1->epoch;
+    self->epoch2 = tick2->epoch;
+    self->last_us = tick1->t_us;
+    self->ticks += 1u;
+    const float off1 = fabsf(tick1->gravity_m_s2 - 9.81f);
+    const float off2 = fabsf(tick2->gravity_m_s2 - 9.81f);
+    self->gravity_off = jcal_max(off1, off2);
+    if (!anew) { /* the first tick of an epoch has no time before it */
+        add_up(self, tick1, tick2);
+    }
+    const float period_s = jcal_min(tick1->period_s, TICK_MAX_S);
+    const float price = (self->verdict.status == (uint8_t)JCAL_READY) ? PRICE_READY : 1.0f;
+    self->credit = jcal_min(self->credit + (period_s * self->cfg.slices_per_s / price), CREDIT_MAX);
+    self->since_s += period_s;
+    return JCAL_OK;
+}
+
+/// The estimate jumped: axes keep their sense if they can, the rest begins anew.
+static void take_over(jcal_functional_t *self, jcal_vec3_t was1, jcal_vec3_t was2)
+{
+    const float along = jcal_vec3_dot(was1, self->point.j1) + jcal_vec3_dot(was2, self->point.j2);
+    if (along < 0.0f) {
+        self->point.j1 = jcal_vec3_scale(self->point.j1, -1.0f);
+        self->point.j2 = jcal_vec3_scale(self->point.j2, -1.0f);
+    }
+    self->verdict.agreed = 0u;
+    jcal_functional_track_begin(self);
+}
+
+static void try_other(jcal_functional_t *self)
+{
+    const jcal_vec3_t was1 = self->point.j1;
+    const jcal_vec3_t was2 = self->point.j2;
+    const bool had = self->search.has_estimate;
+    if (jcal_functional_try(&self->search, &self->sums, &self->point, (unsigned)self->slice - ROUNDS_END)) {
+        take_over(self, had ? was1 : self->point.j1, had ? was2 : self->point.j2);
+    }
+}
+
+static void look_at_rival(jcal_functional_t *self)
+{
+    const unsigned part = (unsigned)self->slice - TRIAL_END;
+    jcal_functional_compare(self, part);
+    if (part < (JCAL_FUNCTIONAL_RIVAL_SLICES - 1u)) {
+        return;
+    }
+    const float evidence = self->verdict.evidence[0] + self->verdict.evidence[1] + self->verdict.evidence[2];
+    const bool hinted = self->cfg.sign_hint != JCAL_SIGN_UNKNOWN;
+    const bool wrong = hinted ? !jcal_functional_obeys(self->cfg.sign_hint, self->point.j1, self->point.j2)
+                              : (evidence < EVIDENCE_TURN);
+    if (wrong) {
+        const jcal_vec3_t was1 = self->point.j1;
+        const jcal_vec3_t was2 = self->point.j2;
+        jcal_functional_turn_round(self);
+        take_over(self, was1, was2);
+    }
+}
+
+/// The slice that follows `slice`; the search goes on only while headings may be begun anew.
+static uint8_t next_of(const jcal_functional_t *self, unsigned slice)
+{
+    const bool first = self->search.tried < JCAL_FUNCTIONAL_FIRST_TRIALS;
+    if ((slice + 1u == ROUNDS_END) && self->merged) {
+        return (uint8_t)TRIAL_END;
+    }
+    if ((slice + 1u == TRIAL_END) && first) {
+        return (uint8_t)ROUNDS_END; /* all starts, one after the other, before the first judgement */
+    }
+    return (uint8_t)(slice + 1u);
+}
+
+static void work(jcal_functional_t *self)
+{
+    const unsigned slice = self->slice;
+    if (slice < ROUNDS_END) {
+        jcal_functional_round(&self->sums, &self->point, slice % 4u);
+    } else if (slice < TRIAL_END) {
+        try_other(self);
+    } else if (slice < RIVAL_END) {
+        look_at_rival(self);
+    } else if (slice < BOUNDS_END) {
+        jcal_functional_bound(self, slice - RIVAL_END);
+    } else if (slice == DESCRIBED) {
+        jcal_functional_describe(self);
+    } else {
+        jcal_functional_judge(self);
+        if (self->verdict.status == (uint8_t)JCAL_READY) {
+            jcal_sign_keep(&self->kept_sign[0], self->point.j1, self->cfg.axis1_toward);
+        }
+    }
+    self->slice = next_of(self, slice);
+}
+
+jcal_status_t jcal_functional_step(jcal_functional_t *self)
+{
+    if (self == NULL) {
+        return JCAL_ERR_ARG;
+    }
+    if (!(self->credit >= 1.0f) || !(self->motion_s >= MOTION_FIRST_S)) {
+        return JCAL_IDLE;
+    }
+    if (self->slice >= (uint8_t)IDLE) {
+        if (!(self->since_s >= JUDGE_EVERY_S)) {
+            return JCAL_IDLE;
+        }
+        self->since_s = 0.0f;
+        self->slice = (uint8_t)(self->search.has_estimate ? 0u : ROUNDS_END);
+    }
+    self->credit -= 1.0f;
+    work(self);
+    return JCAL_OK;
+}

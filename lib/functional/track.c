@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// The heading of this moment. See functional/track.h.
+#include "functional/track.h"
+
+#include "functional/model.h"
+#include "joint/sign.h"
+#include "jointcal/functional.h"
+#include "jointcal/quat.h"
+#include "math/angle.h"
+#include "math/plane.h"
+#include "math/scalar.h"
+#include "math/sphere.h"
+
+#include <float.h>
+
+/// Time constant of the heading, s: 4 to 16 s do alike.
+#define MEMORY_S 8.0f
+
+/// Tangents u = j x e and v = j x u, e the sensor's axis number `from`: they follow the axis j without a jump, as long as j is not near e.
+static jcal_tangent_t zero_at(jcal_vec3_t j, uint8_t from)
+{
+    const jcal_vec3_t e = {(from == 0u) ? 1.0f : 0.0f, (from == 1u) ? 1.0f : 0.0f, (from == 2u) ? 1.0f : 0.0f};
+    const jcal_vec3_t u = jcal_vec3_normalise(jcal_vec3_cross(j, e));
+    const jcal_tangent_t out = {u, jcal_vec3_cross(j, u)};
+    return out;
+}
+
+/// Number of the component of smallest magnitude.
+static uint8_t smallest(jcal_vec3_t j)
+{
+    const float x = fabsf(j.x);
+    const float y = fabsf(j.y);
+    const float z = fabsf(j.z);
+    return (uint8_t)((x <= y) ? ((x <= z) ? 0u : 2u) : ((y <= z) ? 1u : 2u));
+}
+
+void jcal_functional_track_begin(jcal_functional_t *self)
+{
+    jcal_functional_track_clear(self);
+    self->track.zero[0] = smallest(self->point.j1);
+    self->track.zero[1] = smallest(self->point.j2);
+}
+
+/// A direction in space, horizontal part: x + i y of m v, m (3 x 3).
+static jcal_plane_t horizontal(const float *m, jcal_vec3_t v)
+{
+    const jcal_plane_t out = {(m[0] * v.x) + (m[1] * v.y) + (m[2] * v.z), (m[3] * v.x) + (m[4] * v.y) + (m[5] * v.z)};
+    return out;
+}
+
+/// Horizontal velocity of the joint's centre: x + i y of [U B][1; -r].
+static jcal_plane_t centre_velocity(const jcal_tick_t *tick, jcal_vec3_t r)
+{
+    const jcal_plane_t owed = horizontal(tick->swing, r);
+    const jcal_plane_t out = {tick->speed[0] - owed.re, tick->speed[1] - owed.im};
+    return out;
+}
+
+void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2,
+                               float motion_s)
+{
+    if (!self->search.has_estimate) {
+        return;
+    }
+    jcal_functional_track_t *const track = &self->track;
+    const jcal_functional_point_t *const point = &self->point;
+    const float fade = 1.0f / (1.0f + (tick1->period_s / MEMORY_S));
+    const float all_s = jcal_max(self->sums.motion_s, FLT_MIN);
+    const float turn = motion_s * point->weight[JCAL_FAMILY_TURN] / all_s;
+    const float lever = motion_s * point->weight[JCAL_FAMILY_LEVER] / all_s;
+    const jcal_plane_t by_axis =
+        jcal_plane_against(horizontal(tick2->turn, point->j2), horizontal(tick1->turn, point->j1));
+    const jcal_plane_t by_centre =
+        jcal_plane_against(centre_velocity(tick2, point->r2), centre_velocity(tick1, point->r1));
+    track->sum.re = (fade * track->sum.re) + (turn * by_axis.re) + (lever * by_centre.re);
+    track->sum.im = (fade * track->sum.im) + (turn * by_axis.im) + (lever * by_centre.im);
+    if (jcal_plane_norm2(track->sum) > FLT_MIN) {
+        track->heading = jcal_plane_direction(track->sum);
+        track->known = true;
+    }
+}
+
+void jcal_functional_track_clear(jcal_functional_t *self)
+{
+    self->track.sum = (jcal_plane_t){0.0f, 0.0f};
+    self->track.heading = self->point.heading[0];
+    self->track.known = false;
+}
+
+float jcal_functional_flexion(const jcal_functional_t *self, jcal_quat_t orientation1, jcal_quat_t orientation2)
+{
+    if ((self == NULL) || !self->search.has_estimate) {
+        return NAN;
+    }
+    const jcal_vec3_t j1 = self->point.j1;
+    const jcal_vec3_t j2 = self->point.j2;
+    const jcal_plane_t heading = self->track.heading;
+    const jcal_tangent_t t1 = zero_at(j1, self->track.zero[0]);
+    const jcal_tangent_t t2 = zero_at(j2, self->track.zero[1]);
+    /* Rows u1, v1 and columns u2, v2 of R1' Rz R2: its twist about the axes. */
+    const jcal_vec3_t level[2] = {jcal_quat_rotate(orientation2, t2.u), jcal_quat_rotate(orientation2, t2.v)};
+    float m[4];
+    for (size_t k = 0u; k < 2u; ++k) {
+        const jcal_vec3_t in_l1 = {(heading.re * level[k].x) - (heading.im * level[k].y),
+                                   (heading.im * level[k].x) + (heading.re * level[k].y), level[k].z};
+        const jcal_vec3_t in_1 = jcal_quat_rotate(jcal_quat_conj(orientation1), in_l1);
+        m[k] = jcal_vec3_dot(t1.u, in_1);
+        m[2u + k] = jcal_vec3_dot(t1.v, in_1);
+    }
+    const float sign = jcal_sign_of(j1, self->cfg.axis1_toward, self->kept_sign[0]);
+    return sign * jcal_atan2(m[2] - m[1], m[0] + m[3]);
+}

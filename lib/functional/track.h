@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// The heading of this moment, and the joint's angle from it. Private.
+#ifndef JCAL_FUNCTIONAL_TRACK_H
+#define JCAL_FUNCTIONAL_TRACK_H
+
+#include "jointcal/private/functional/stream.h"
+#include "jointcal/tick.h"
+
+/// Takes in a tick with its seconds of motion; the axes, levers and weights are those of the last judgement. Cost: 80 multiply-adds.
+void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2,
+                               float motion_s);
+
+/// There is another estimate: the heading is lost, and the angle has another zero.
+void jcal_functional_track_begin(jcal_functional_t *self);
+
+/// The heading is lost, and so is what the last seconds said.
+void jcal_functional_track_clear(jcal_functional_t *self);
+
+#endif /* JCAL_FUNCTIONAL_TRACK_H */
