@@ -11,6 +11,7 @@
 /// | the joint's centre | center.h; center_window.h is the published algorithm | center_config.h, kinematics.h |
 /// | hip and knee together | chain.h | chain_config.h |
 /// | joint angles from orientations | joint_angles.h, joint_heading.h | |
+/// | one sensor's orientation and features, once for all its joints | sensor.h, tick.h | |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
 ///
 /// What stands in private/ is state whose size must be known at compile time; nothing there is for the user to touch.
@@ -34,7 +35,9 @@
 #include "jointcal/joint_heading.h"
 #include "jointcal/orientation.h"
 #include "jointcal/quat.h"
+#include "jointcal/sensor.h"
 #include "jointcal/status.h"
+#include "jointcal/tick.h"
 #include "jointcal/two_dof.h"
 #include "jointcal/two_dof_window.h"
 #include "jointcal/types.h"

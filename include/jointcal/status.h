@@ -18,6 +18,7 @@ typedef enum {
     JCAL_OK = 0,            ///< Done.
     JCAL_REJECTED = 1,      ///< push: the sample was understood and not used; head.rejected_by counts why.
     JCAL_IDLE = 2,          ///< step: no sample was waiting.
+    JCAL_TICK = 3,          ///< push of a sensor: done, and there are new features.
     JCAL_ERR_ARG = -1,      ///< A pointer is null or an argument is outside its documented range.
     JCAL_ERR_CONFIG = -2,   ///< A field of the config is not finite or outside its documented range.
     JCAL_ERR_STORAGE = -3,  ///< The storage handed over is too small or not aligned.

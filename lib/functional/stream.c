@@ -93,11 +93,11 @@ jcal_status_t jcal_functional_reset(jcal_functional_t *self)
 /// All numbers of a tick summed: NaN or infinite if one of them is.
 static bool is_finite(const jcal_tick_t *tick)
 {
-    float sum = tick->period_s + tick->rate.x + tick->rate.y + tick->rate.z + tick->gravity_m_s2;
+    float sum = tick->dt_s + tick->gyr.x + tick->gyr.y + tick->gyr.z + tick->acc_level_m_s2;
     for (size_t i = 0u; i < 9u; ++i) {
-        sum += (0.0f * tick->turn[i]) + (0.0f * tick->spin[i]) + (0.0f * tick->swing[i]);
+        sum += (0.0f * tick->turn[i]) + (0.0f * tick->rate[i]) + (0.0f * tick->lever[i]);
     }
-    sum += (0.0f * tick->speed[0]) + (0.0f * tick->speed[1]) + (0.0f * tick->speed[2]);
+    sum += tick->velocity.x + tick->velocity.y + tick->velocity.z;
     return jcal_is_finite(sum);
 }
 
@@ -113,8 +113,8 @@ static void cut(jcal_functional_t *self)
 
 static void add_up(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
 {
-    const float period_s = tick1->period_s;
-    const float rate2 = jcal_vec3_dot(tick1->rate, tick1->rate) + jcal_vec3_dot(tick2->rate, tick2->rate);
+    const float period_s = tick1->dt_s;
+    const float rate2 = jcal_vec3_dot(tick1->gyr, tick1->gyr) + jcal_vec3_dot(tick2->gyr, tick2->gyr);
     self->rate2 += (period_s / (period_s + RATE_SMOOTHING_S)) * (rate2 - self->rate2);
     const float share = 1.0f / (self->rate2 + REST_RATE2);
     const jcal_functional_weights_t weights = {
@@ -152,13 +152,11 @@ jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *ti
     self->epoch2 = tick2->epoch;
     self->last_us = tick1->t_us;
     self->ticks += 1u;
-    const float off1 = fabsf(tick1->gravity_m_s2 - 9.81f);
-    const float off2 = fabsf(tick2->gravity_m_s2 - 9.81f);
+    const float off1 = fabsf(tick1->acc_level_m_s2 - 9.81f);
+    const float off2 = fabsf(tick2->acc_level_m_s2 - 9.81f);
     self->gravity_off = jcal_max(off1, off2);
-    if (!anew) { /* the first tick of an epoch has no time before it */
-        add_up(self, tick1, tick2);
-    }
-    const float period_s = jcal_min(tick1->period_s, TICK_MAX_S);
+    add_up(self, tick1, tick2);
+    const float period_s = jcal_min(tick1->dt_s, TICK_MAX_S);
     const float price = (self->verdict.status == (uint8_t)JCAL_READY) ? PRICE_READY : 1.0f;
     self->credit = jcal_min(self->credit + (period_s * self->cfg.slices_per_s / price), CREDIT_MAX);
     self->since_s += period_s;

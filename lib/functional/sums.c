@@ -48,11 +48,12 @@ static void add_horizontal(float *re, float *im, float weight, const float *cons
 /// Rows of [U B]: f (3 x 4).
 static void lever_rows(const jcal_tick_t *tick, float f[12])
 {
+    const float velocity[3] = {tick->velocity.x, tick->velocity.y, tick->velocity.z};
     for (size_t a = 0u; a < 3u; ++a) {
-        f[4u * a] = tick->speed[a];
-        f[(4u * a) + 1u] = tick->swing[3u * a];
-        f[(4u * a) + 2u] = tick->swing[(3u * a) + 1u];
-        f[(4u * a) + 3u] = tick->swing[(3u * a) + 2u];
+        f[4u * a] = velocity[a];
+        f[(4u * a) + 1u] = tick->lever[3u * a];
+        f[(4u * a) + 2u] = tick->lever[(3u * a) + 1u];
+        f[(4u * a) + 3u] = tick->lever[(3u * a) + 2u];
     }
 }
 
@@ -83,15 +84,15 @@ static void add_turns(jcal_functional_sums_t *self, const jcal_tick_t *tick1, co
 static void add_rates(jcal_functional_sums_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2, float weight)
 {
     for (size_t a = 0u; a < 3u; ++a) {
-        jcal_sym_rank1(self->rate1, 3u, &tick1->spin[3u * a], weight);
-        jcal_sym_rank1(self->rate2nd, 3u, &tick2->spin[3u * a], weight);
+        jcal_sym_rank1(self->rate1, 3u, &tick1->rate[3u * a], weight);
+        jcal_sym_rank1(self->rate2nd, 3u, &tick2->rate[3u * a], weight);
     }
-    const float rate1[3] = {tick1->rate.x, tick1->rate.y, tick1->rate.z};
-    const float rate2[3] = {tick2->rate.x, tick2->rate.y, tick2->rate.z};
+    const float rate1[3] = {tick1->gyr.x, tick1->gyr.y, tick1->gyr.z};
+    const float rate2[3] = {tick2->gyr.x, tick2->gyr.y, tick2->gyr.z};
     add_outer3(self->along, weight, rate1, rate2);
-    add_outer3(self->rate_up, weight, &tick1->spin[6], &tick2->spin[6]);
+    add_outer3(self->rate_up, weight, &tick1->rate[6], &tick2->rate[6]);
     for (size_t i = 0u; i < 9u; ++i) {
-        add_scaled(&self->block[0].rate[9u * i], weight * tick1->spin[i], tick2->spin, 9u);
+        add_scaled(&self->block[0].rate[9u * i], weight * tick1->rate[i], tick2->rate, 9u);
     }
 }
 
@@ -101,7 +102,7 @@ void jcal_functional_sums_add(jcal_functional_sums_t *self, const jcal_tick_t *t
     self->motion_s += weights->motion_s;
     self->rate2 += weights->spin * weights->rate2;
     self->block[0].motion_s += weights->motion_s;
-    self->block[0].time_s += tick1->period_s;
+    self->block[0].time_s += tick1->dt_s;
     add_turns(self, tick1, tick2, weights->motion_s);
     add_rates(self, tick1, tick2, weights->spin);
     add_levers(self, tick1, tick2, weights->motion_s);

@@ -52,8 +52,8 @@ static jcal_plane_t horizontal(const float *m, jcal_vec3_t v)
 /// Horizontal velocity of the joint's centre: x + i y of [U B][1; -r].
 static jcal_plane_t centre_velocity(const jcal_tick_t *tick, jcal_vec3_t r)
 {
-    const jcal_plane_t owed = horizontal(tick->swing, r);
-    const jcal_plane_t out = {tick->speed[0] - owed.re, tick->speed[1] - owed.im};
+    const jcal_plane_t owed = horizontal(tick->lever, r);
+    const jcal_plane_t out = {tick->velocity.x - owed.re, tick->velocity.y - owed.im};
     return out;
 }
 
@@ -65,7 +65,7 @@ void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1
     }
     jcal_functional_track_t *const track = &self->track;
     const jcal_functional_point_t *const point = &self->point;
-    const float fade = 1.0f / (1.0f + (tick1->period_s / MEMORY_S));
+    const float fade = 1.0f / (1.0f + (tick1->dt_s / MEMORY_S));
     const float all_s = jcal_max(self->sums.motion_s, FLT_MIN);
     const float turn = motion_s * point->weight[JCAL_FAMILY_TURN] / all_s;
     const float lever = motion_s * point->weight[JCAL_FAMILY_LEVER] / all_s;

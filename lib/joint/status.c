@@ -27,6 +27,8 @@ const char *jcal_status_string(jcal_status_t status)
         return "sample rejected";
     case JCAL_IDLE:
         return "nothing to do";
+    case JCAL_TICK:
+        return "new features";
     case JCAL_ERR_ARG:
         return "invalid argument";
     case JCAL_ERR_CONFIG:

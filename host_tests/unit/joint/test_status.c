@@ -23,7 +23,7 @@ void tearDown(void)
 
 static void every_call_result_has_a_text_of_its_own(void)
 {
-    const jcal_status_t all[] = {JCAL_OK,         JCAL_REJECTED,    JCAL_IDLE,     JCAL_ERR_ARG,
+    const jcal_status_t all[] = {JCAL_OK,         JCAL_REJECTED,    JCAL_IDLE,     JCAL_TICK,        JCAL_ERR_ARG,
                                  JCAL_ERR_CONFIG, JCAL_ERR_STORAGE, JCAL_ERR_FULL, JCAL_ERR_SINGULAR};
     for (size_t i = 0; i < COUNT(all); ++i) {
         TEST_ASSERT_NOT_EQUAL(0, strcmp("unknown", jcal_status_string(all[i])));

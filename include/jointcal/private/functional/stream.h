@@ -44,7 +44,7 @@ typedef struct {
     float credit;       ///< Slices that are paid for.
     float gravity_off;  ///< How far the specific forces' medians are from gravity, m/s^2; the larger of both sensors.
     uint32_t ticks;
-    uint16_t epoch1, epoch2;
+    uint32_t epoch1, epoch2;
     uint8_t slice;  ///< Next slice of the judgement.
     int8_t kept_sign[2];
     bool merged;  ///< A block was merged: headings cannot be begun anew any more.
