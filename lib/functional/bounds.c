@@ -15,8 +15,9 @@
 
 #include <float.h>
 
-/// What is never known, rad: 1 deg.
-#define BOUND_FLOOR_RAD 0.0174532925f
+/// What is never known, rad: 1 deg of rigid mounts, 2 deg of people, whose axis differs from one activity to the next.
+#define FLOOR_RIGID_RAD 0.0174532925f
+#define FLOOR_PERSON_RAD 0.0349065850f
 
 /// Square of the share of a residual that never averages out, of rigid mounts and of people, and seconds of motion that one
 /// independent reading of all of it takes. A mean squared residual of the rates of PERSON is a person's.
@@ -24,9 +25,6 @@
 #define LASTING_PERSON 1.0f
 #define PERSON_RATE 0.01f
 #define READING_S 2.5f
-
-/// Where the rates agree about the axis to this share of themselves, the rest is at least this wide: never less than the floor.
-#define BOUND_MAX_RAD JCAL_BOUND_UNKNOWN_RAD
 
 void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                                     float *out)
@@ -98,8 +96,8 @@ static float widest(float p00, float p01, float p11)
 static void finish(jcal_functional_t *self)
 {
     jcal_functional_verdict_t *const verdict = &self->verdict;
-    verdict->bound1_rad = BOUND_MAX_RAD;
-    verdict->bound2_rad = BOUND_MAX_RAD;
+    verdict->bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
+    verdict->bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
     float factor[JCAL_SYM_SIZE(4u)];
     if (jcal_chol_factor(verdict->hessian, 4u, factor, NULL) == JCAL_OK) {
         float p[JCAL_SYM_SIZE(4u)];
@@ -107,8 +105,9 @@ static void finish(jcal_functional_t *self)
         const float person = jcal_min(self->point.size[JCAL_FAMILY_RATE] / PERSON_RATE, 1.0f);
         const float lasting = LASTING_RIGID + ((LASTING_PERSON - LASTING_RIGID) * person);
         const float growth = sqrtf(lasting + (READING_S / jcal_max(self->sums.motion_s, FLT_MIN)));
-        verdict->bound1_rad = jcal_min(BOUND_FLOOR_RAD + (growth * widest(p[0], p[1], p[2])), BOUND_MAX_RAD);
-        verdict->bound2_rad = jcal_min(BOUND_FLOOR_RAD + (growth * widest(p[5], p[8], p[9])), BOUND_MAX_RAD);
+        const float floor_rad = FLOOR_RIGID_RAD + ((FLOOR_PERSON_RAD - FLOOR_RIGID_RAD) * person);
+        verdict->bound1_rad = jcal_min(floor_rad + (growth * widest(p[0], p[1], p[2])), JCAL_BOUND_UNKNOWN_RAD);
+        verdict->bound2_rad = jcal_min(floor_rad + (growth * widest(p[5], p[8], p[9])), JCAL_BOUND_UNKNOWN_RAD);
     }
     const float bound = jcal_max(verdict->bound1_rad, verdict->bound2_rad);
     const float straight = 2.0f * self->point.size[JCAL_FAMILY_TURN];

@@ -28,20 +28,12 @@
 /// What one fixed rotation between both rates must leave of the smaller one, or the joint does not move.
 #define STIFFNESS_MIN 0.05f
 
-/// A residual of the rates below this share of them, and relative motion that is along the axis to this share, is a rigid mount's.
-#define RIGID_RATE2 (0.08f * 0.08f)
-#define RIGID_SHARE 0.97f
-/// Rigid mounts: seconds of motion, bending, and the share of the centre's motion that may be left.
-#define RIGID_MOTION_S 1.0f
-#define RIGID_BEND_RAD (10.0f * DEGREE)
-#define RIGID_LACK 0.25f
-
-/// People: the same, the share of the relative motion that must be along the axis, and ...
-#define PERSON_MOTION_S 3.0f
-#define PERSON_BEND_RAD (15.0f * DEGREE)
-#define PERSON_SHARE 0.8f
-#define PERSON_LACK 0.04f
-/// ... noise of the centre's velocity, squared, (m/s)^2, what the other pairing must leave beside this one, and evidence of that kind.
+/// Seconds of motion, bending, the share of the relative motion that must be along the axis, and of the centre's that may be left.
+#define MOTION_MIN_S 3.0f
+#define BEND_MIN_RAD (15.0f * DEGREE)
+#define SHARE_MIN 0.8f
+#define LACK_MAX 0.04f
+/// Noise of the centre's velocity, squared, (m/s)^2; what the other pairing must leave beside this one, and evidence of that kind.
 #define SPEED_NOISE2 6e-4f
 #define OPPOSITE_MIN 4.0f
 #define OPPOSITE_LEAST2 3e-4f
@@ -129,10 +121,7 @@ static bool is_one_joint(const jcal_functional_t *self, float slack)
 {
     const float speed2 = jcal_max(self->point.speed2, FLT_MIN);
     const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
-    if (self->verdict.is_rigid) {
-        return left <= (slack * RIGID_LACK * speed2);
-    }
-    return (left - SPEED_NOISE2) <= (slack * PERSON_LACK * speed2);
+    return (left - SPEED_NOISE2) <= (slack * LACK_MAX * speed2);
 }
 
 /// True if the pairing of signs is certain.
@@ -146,9 +135,6 @@ static bool is_paired(const jcal_functional_t *self, float slack)
     if (!((slack * evidence) >= EVIDENCE_MIN)) {
         return false;
     }
-    if (verdict->is_rigid) {
-        return true;
-    }
     const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
     return ((slack * (verdict->opposite - SPEED_NOISE2)) >= (OPPOSITE_MIN * jcal_max(left, OPPOSITE_LEAST2))) &&
            ((slack * verdict->evidence[JCAL_FAMILY_LEVER]) >= LEVER_EVIDENCE_MIN);
@@ -158,11 +144,10 @@ static bool is_paired(const jcal_functional_t *self, float slack)
 static jcal_reason_t find_reason(const jcal_functional_t *self, float slack)
 {
     const jcal_functional_verdict_t *const verdict = &self->verdict;
-    const bool rigid = verdict->is_rigid;
     if (self->gravity_off > (slack * GRAVITY_OFF_MAX)) {
         return JCAL_REASON_GRAVITY_OFF;
     }
-    if ((slack * self->sums.motion_s) < (rigid ? RIGID_MOTION_S : PERSON_MOTION_S)) {
+    if ((slack * self->sums.motion_s) < MOTION_MIN_S) {
         return JCAL_REASON_NO_MOTION;
     }
     if (!((2.0f * self->point.size[JCAL_FAMILY_TURN]) <= (slack * LEANING_MAX * LEANING_MAX))) {
@@ -171,11 +156,10 @@ static jcal_reason_t find_reason(const jcal_functional_t *self, float slack)
     if (!is_one_joint(self, slack)) {
         return JCAL_REASON_NOT_ONE_JOINT;
     }
-    if (!((slack * verdict->bend_rad) >= (rigid ? RIGID_BEND_RAD : PERSON_BEND_RAD)) ||
-        !((slack * verdict->stiffness) >= STIFFNESS_MIN)) {
+    if (!((slack * verdict->bend_rad) >= BEND_MIN_RAD) || !((slack * verdict->stiffness) >= STIFFNESS_MIN)) {
         return JCAL_REASON_NO_BEND;
     }
-    if (!rigid && !((slack * verdict->share) >= PERSON_SHARE)) {
+    if (!((slack * verdict->share) >= SHARE_MIN)) {
         return JCAL_REASON_MORE_AXES;
     }
     if (!is_paired(self, slack)) {
@@ -208,7 +192,6 @@ void jcal_functional_judge(jcal_functional_t *self)
     const bool was_ready = verdict->status == (uint8_t)JCAL_READY;
     const float slack = was_ready ? JCAL_HYSTERESIS : 1.0f;
     const float bound = jcal_max(verdict->bound1_rad, verdict->bound2_rad);
-    verdict->is_rigid = (self->point.size[JCAL_FAMILY_RATE] <= RIGID_RATE2) && (verdict->share >= RIGID_SHARE);
     verdict->for_axes = bound <= (slack * self->cfg.max_bound_rad);
     verdict->for_flexion =
         (verdict->flexion_rad <= (slack * self->cfg.max_flexion_rad)) && (bound <= (slack * BOUND_FOR_FLEXION_RAD));

@@ -86,7 +86,7 @@ bool jcal_functional_try(jcal_functional_search_t *self, const jcal_functional_s
         *estimate = self->trial;
         self->has_estimate = true;
     }
-    self->turn = (uint8_t)((self->turn + 1u) % JCAL_FUNCTIONAL_FIRST_TRIALS);
+    self->turn = (uint8_t)((self->turn + 1u) % JCAL_FUNCTIONAL_TRIALS);
     self->tried = (uint8_t)((self->tried < UINT8_MAX) ? (self->tried + 1u) : UINT8_MAX);
     return is_better;
 }

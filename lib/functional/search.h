@@ -11,8 +11,11 @@
 /// Slices of one trial.
 #define JCAL_FUNCTIONAL_TRIAL_SLICES 12u
 
-/// Trials before the first estimate is taken: eight headings with the two pairs of axes that are known least.
-#define JCAL_FUNCTIONAL_FIRST_TRIALS 16u
+/// Trials before the first judgement: eight headings, with the axes that are known least.
+#define JCAL_FUNCTIONAL_FIRST_TRIALS 8u
+
+/// All trials: the same with the axes that are known second least. They take turns as long as headings may be begun anew.
+#define JCAL_FUNCTIONAL_TRIALS 16u
 
 /// Slice `part` of a round that improves `point`: 0 levers, 1 axes, 2 and 3 the headings of both blocks. Cost: at most 600 multiply-adds.
 void jcal_functional_round(const jcal_functional_sums_t *sums, jcal_functional_point_t *point, unsigned part);

@@ -27,8 +27,10 @@
 
 /// Motion before anything is estimated, s.
 #define MOTION_FIRST_S 0.7f
-/// All sums are halved when they hold this much motion, s: what is learnt of a person follows slow change.
+/// All sums are halved when they hold this much motion, s: what is learnt of a person follows slow change; and what is no joint yet, such
+/// as sensors that are handled before they are strapped on, is soon forgotten.
 #define MOTION_MAX_S 60.0f
+#define MOTION_MAX_BEFORE_S 20.0f
 
 /// Time from one judgement to the next, s, and what a slice costs once ready.
 #define JUDGE_EVERY_S 0.25f
@@ -53,11 +55,11 @@ enum {
 
 typedef char jcal_functional_fits_its_budget[(sizeof(jcal_functional_t) <= 3072u) ? 1 : -1];
 
-static void start(jcal_functional_t *self, const jcal_functional_config_t *config)
+/// Empties what was learnt of the joint: all that follows the settings.
+static void clear(jcal_functional_t *self)
 {
-    const jcal_functional_config_t cfg = *config; /* may be self->cfg */
-    jcal_clear(self, sizeof *self);
-    self->cfg = cfg;
+    const size_t first = offsetof(jcal_functional_t, sums);
+    jcal_clear((unsigned char *)self + first, sizeof *self - first);
     self->point.j1 = jcal_vec3(0.0f, 0.0f, 1.0f);
     self->point.j2 = jcal_vec3(0.0f, 0.0f, 1.0f);
     for (unsigned b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
@@ -73,6 +75,19 @@ static void start(jcal_functional_t *self, const jcal_functional_config_t *confi
     self->slice = (uint8_t)IDLE;
 }
 
+/// A sensor has moved: everything is learnt anew.
+static void begin_anew(jcal_functional_t *self)
+{
+    const jcal_functional_t was = *self;
+    clear(self);
+    self->last_us = was.last_us;
+    self->ticks = was.ticks;
+    self->epoch1 = was.epoch1;
+    self->epoch2 = was.epoch2;
+    self->has_tick = true;
+    self->verdict.status = (uint8_t)JCAL_MOVED;
+}
+
 jcal_status_t jcal_functional_init(jcal_functional_t *self, const jcal_functional_config_t *config)
 {
     if ((self == NULL) || (config == NULL)) {
@@ -81,7 +96,8 @@ jcal_status_t jcal_functional_init(jcal_functional_t *self, const jcal_functiona
     if (jcal_functional_config_check(config) != NULL) {
         return JCAL_ERR_CONFIG;
     }
-    start(self, config);
+    self->cfg = *config;
+    clear(self);
     return JCAL_OK;
 }
 
@@ -128,7 +144,8 @@ static void add_up(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal
     if (jcal_functional_sums_full(&self->sums)) {
         self->merged = self->merged || (self->sums.block[1].motion_s > 0.0f);
         jcal_functional_sums_close(&self->sums, &self->point);
-        if (self->sums.motion_s > MOTION_MAX_S) {
+        const bool was_ready = self->kept_sign[0] != 0;
+        if (self->sums.motion_s > (was_ready ? MOTION_MAX_S : MOTION_MAX_BEFORE_S)) {
             jcal_functional_sums_fade(&self->sums, 0.5f);
         }
     }
@@ -156,6 +173,9 @@ jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *ti
     const float off2 = fabsf(tick2->acc_level_m_s2 - 9.81f);
     self->gravity_off = jcal_max(off1, off2);
     add_up(self, tick1, tick2);
+    if ((self->kept_sign[0] != 0) && jcal_functional_track_alarm(&self->track)) {
+        begin_anew(self);
+    }
     const float period_s = jcal_min(tick1->dt_s, TICK_MAX_S);
     const float price = (self->verdict.status == (uint8_t)JCAL_READY) ? PRICE_READY : 1.0f;
     self->credit = jcal_min(self->credit + (period_s * self->cfg.slices_per_s / price), CREDIT_MAX);

@@ -17,6 +17,17 @@
 /// Time constant of the heading, s: 4 to 16 s do alike.
 #define MEMORY_S 8.0f
 
+/// Squared rate that is added before a residual of the rates is taken as a share of them, (rad/s)^2.
+#define WATCH_REST_RATE2 0.3f
+/// Motion that residuals are averaged over, s, and the most that one of them counts.
+#define WATCH_S 1.5f
+#define WATCH_CLIP 50.0f
+/// A sensor has moved when a mean is this many times the usual: half as much again as the largest that whole recordings without a slip
+/// held (docs/METHOD_PEOPLE.md, section 6).
+#define MOVED_TURN 13.0f
+#define MOVED_RATE 10.0f
+#define MOVED_LEVER 14.0f
+
 /// Tangents u = j x e and v = j x u, e the sensor's axis number `from`: they follow the axis j without a jump, as long as j is not near e.
 static jcal_tangent_t zero_at(jcal_vec3_t j, uint8_t from)
 {
@@ -57,6 +68,46 @@ static jcal_plane_t centre_velocity(const jcal_tick_t *tick, jcal_vec3_t r)
     return out;
 }
 
+/// |a - heading b|^2 of the horizontal parts, and of the vertical ones.
+static float apart2(jcal_plane_t heading, jcal_plane_t a, float a_up, jcal_plane_t b, float b_up)
+{
+    const jcal_plane_t off = jcal_plane_add(a, -1.0f, jcal_plane_times(heading, b));
+    const float up = a_up - b_up;
+    return jcal_plane_norm2(off) + (up * up);
+}
+
+/// The vertical part of m v, m (3 x 3).
+static float vertical(const float *m, jcal_vec3_t v)
+{
+    return (m[6] * v.x) + (m[7] * v.y) + (m[8] * v.z);
+}
+
+/// Residuals of this moment beside the sizes that they have in the sums.
+static void watch(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2, float motion_s)
+{
+    const jcal_functional_point_t *const point = &self->point;
+    const jcal_plane_t heading = self->track.heading;
+    const float turn = apart2(heading, horizontal(tick1->turn, point->j1), vertical(tick1->turn, point->j1),
+                              horizontal(tick2->turn, point->j2), vertical(tick2->turn, point->j2));
+    const float rate = apart2(heading, horizontal(tick1->rate, point->j1), vertical(tick1->rate, point->j1),
+                              horizontal(tick2->rate, point->j2), vertical(tick2->rate, point->j2));
+    const float lever =
+        apart2(heading, centre_velocity(tick1, point->r1), tick1->velocity.z - vertical(tick1->lever, point->r1),
+               centre_velocity(tick2, point->r2), tick2->velocity.z - vertical(tick2->lever, point->r2));
+    const float squares[JCAL_FAMILIES] = {0.5f * turn, 0.5f * rate / (self->rate2 + WATCH_REST_RATE2), lever / 3.0f};
+    const float share = motion_s / (motion_s + WATCH_S);
+    for (unsigned f = 0u; f < JCAL_FAMILIES; ++f) {
+        const float square = jcal_min(squares[f] / point->size[f], WATCH_CLIP);
+        self->track.recent[f] += share * (square - self->track.recent[f]);
+    }
+}
+
+bool jcal_functional_track_alarm(const jcal_functional_track_t *self)
+{
+    return (self->recent[JCAL_FAMILY_TURN] > MOVED_TURN) || (self->recent[JCAL_FAMILY_RATE] > MOVED_RATE) ||
+           (self->recent[JCAL_FAMILY_LEVER] > MOVED_LEVER);
+}
+
 void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2,
                                float motion_s)
 {
@@ -78,6 +129,7 @@ void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1
     if (jcal_plane_norm2(track->sum) > FLT_MIN) {
         track->heading = jcal_plane_direction(track->sum);
         track->known = true;
+        watch(self, tick1, tick2, motion_s);
     }
 }
 

@@ -11,6 +11,9 @@
 void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2,
                                float motion_s);
 
+/// True if the last seconds of motion do not fit any more: a sensor has moved.
+bool jcal_functional_track_alarm(const jcal_functional_track_t *self);
+
 /// There is another estimate: the heading is lost, and the angle has another zero.
 void jcal_functional_track_begin(jcal_functional_t *self);
 

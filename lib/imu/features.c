@@ -19,10 +19,8 @@
 #define TICK_HIGH_HZ 0.4f
 #define TICK_LOW_HZ 3.0f
 
-/// The level of |a| moves by this, m/s^3; at first by LEVEL_BEGIN / time. A level that moves by s has, where |a| scatters by sigma, a time
-/// constant of about 1.25 sigma / s: 10 s for a sigma of 2 m/s^2, as in walking.
-#define LEVEL_M_S3 0.25f
-#define LEVEL_BEGIN_M_S2 2.5f
+/// The mean of the vertical specific force is over all of an epoch, and then over this, s: a person's own acceleration averages out.
+#define LEVEL_TAU_S 20.0f
 #define SINCE_MAX_S 1000.0f
 
 /// Places of the signals.
@@ -39,7 +37,7 @@ static void rate_matrix(const float r[9], jcal_vec3_t w, float out[9])
     }
 }
 
-void jcal_features_begin(jcal_features_t *self, const float r[9], jcal_vec3_t gyr_rad_s, jcal_vec3_t acc_m_s2)
+void jcal_features_begin(jcal_features_t *self, const float r[9], jcal_vec3_t gyr_rad_s)
 {
     const uint32_t epoch = self->tick.epoch + 1u;
     jcal_clear(self, sizeof *self);
@@ -55,8 +53,7 @@ void jcal_features_begin(jcal_features_t *self, const float r[9], jcal_vec3_t gy
         self->chain[i][2] = x[i];
     }
     (void)memcpy(self->tick.rate, x, sizeof self->tick.rate);
-    self->tick.acc_level_m_s2 = jcal_vec3_norm(acc_m_s2);
-    self->level_step = LEVEL_BEGIN_M_S2;
+    self->tick.acc_level_m_s2 = GRAVITY_M_S2;
 }
 
 void jcal_features_set_sample(jcal_sample_rates_t *rates)
@@ -103,11 +100,6 @@ void jcal_features_sample(jcal_features_t *self, const jcal_sample_rates_t *rate
     (void)put(self->chain[W], w.x, pole);
     (void)put(self->chain[W + 1], w.y, pole);
     (void)put(self->chain[W + 2], w.z, pole);
-    /* The median of |a| is the root of that of |a|^2, and needs no root. */
-    const float level = self->tick.acc_level_m_s2;
-    const float step = rates->dt_s * self->level_step;
-    const bool above = jcal_vec3_dot(imu->acc_m_s2, imu->acc_m_s2) > (level * level);
-    self->tick.acc_level_m_s2 = above ? (level + step) : jcal_max(level - step, 0.0f);
 }
 
 /// A high-pass: h of x, which was `before`.
@@ -150,10 +142,12 @@ void jcal_features_tick(jcal_features_t *self, const jcal_tick_rates_t *rates, c
     u->x = make_velocity(self->velocity_high[0], self->way_m_s.x, u->x, rates);
     u->y = make_velocity(self->velocity_high[1], self->way_m_s.y, u->y, rates);
     u->z = make_velocity(self->velocity_high[2], self->way_m_s.z, u->z, rates);
+    const float since_s = jcal_min(tick->since_s, LEVEL_TAU_S);
+    const float vertical = GRAVITY_M_S2 + (self->way_m_s.z / rates->dt_s);
+    tick->acc_level_m_s2 += (rates->dt_s / (since_s + rates->dt_s)) * (vertical - tick->acc_level_m_s2);
     self->way_m_s = jcal_vec3(0.0f, 0.0f, 0.0f);
     (void)memcpy(tick->turn, r, sizeof tick->turn);
     tick->gyr = jcal_vec3(self->chain[W][2], self->chain[W + 1][2], self->chain[W + 2][2]);
     tick->dt_s = rates->dt_s;
     tick->since_s = jcal_min(tick->since_s + rates->dt_s, SINCE_MAX_S);
-    self->level_step = jcal_max(LEVEL_M_S3, LEVEL_BEGIN_M_S2 / tick->since_s);
 }

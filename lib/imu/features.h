@@ -18,7 +18,7 @@
 #include "jointcal/private/sensor/stage.h"
 
 /// The first sample of an epoch. The tick keeps its count of epochs.
-void jcal_features_begin(jcal_features_t *self, const float r[9], jcal_vec3_t gyr_rad_s, jcal_vec3_t acc_m_s2);
+void jcal_features_begin(jcal_features_t *self, const float r[9], jcal_vec3_t gyr_rad_s);
 
 /// Coefficients for samples `dt_s` apart, and for ticks.
 void jcal_features_set_sample(jcal_sample_rates_t *rates);

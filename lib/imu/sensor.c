@@ -47,7 +47,7 @@ static void begin_epoch(jcal_sensor_t *self, const jcal_reading_t *reading)
     jcal_attitude_begin(&self->attitude, gyr, imu->acc_m_s2);
     jcal_turn_matrix(self->attitude.q_s_e, r);
     jcal_bias_restart(&self->bias, imu);
-    jcal_features_begin(&self->features, r, gyr, imu->acc_m_s2);
+    jcal_features_begin(&self->features, r, gyr);
     self->tick_us = reading->t_us;
     self->has_tick = false;
 }

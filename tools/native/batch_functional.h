@@ -8,7 +8,7 @@
 #include "jointcal/functional_pair.h"
 
 /* Numbers per tick: status, reason, weak, hint, axis1 (3), axis2 (3), uncertainty1_rad, uncertainty2_rad, flexion_uncertainty_rad,
-   for_axes, for_flexion, is_rigid, heading_rad, joint_to_sensor1_m (3), joint_to_sensor2_m (3), evidence (3), opposite, share, bend_rad,
+   for_axes, for_flexion, has_axes, heading_rad, joint_to_sensor1_m (3), joint_to_sensor2_m (3), evidence (3), opposite, share, bend_rad,
    stiffness, lack per second, speed2, motion_s of the sums, size (3), gravity_off, motion_s, energy, number of the sample. */
 #define JCAL_BATCH_FUNCTIONAL_COLUMNS 40
 

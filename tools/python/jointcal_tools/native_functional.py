@@ -46,7 +46,7 @@ class Track:
     flexion_bound_deg: np.ndarray  # (M,)
     for_axes: np.ndarray
     for_flexion: np.ndarray
-    is_rigid: np.ndarray
+    has_axes: np.ndarray
     heading_deg: np.ndarray
     r1: np.ndarray  # (M, 3), m
     r2: np.ndarray

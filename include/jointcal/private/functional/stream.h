@@ -23,9 +23,10 @@ typedef struct {
 
 /// The heading of this moment, for the angle.
 typedef struct {
-    jcal_plane_t sum;      ///< What the last seconds say, fading.
-    jcal_plane_t heading;  ///< L2 to L1.
-    uint8_t zero[2];       ///< The axis of each sensor that the angle's zero is taken from.
+    jcal_plane_t sum;             ///< What the last seconds say, fading.
+    jcal_plane_t heading;         ///< L2 to L1.
+    float recent[JCAL_FAMILIES];  ///< Squared residuals of the last 1.5 s of motion beside their usual sizes.
+    uint8_t zero[2];              ///< The axis of each sensor that the angle's zero is taken from.
     bool known;
 } jcal_functional_track_t;
 

@@ -17,7 +17,6 @@ extern "C" {
 typedef struct {
     float chain[JCAL_FEATURE_SIGNALS][3];  ///< Three one-poles in series each.
     jcal_vec3_t way_m_s;                   ///< I: integral of v since the last tick.
-    float level_step;                      ///< How fast the level of |a| may change, m/s^3.
     float lever_high[9][3];                ///< Three high-passes of Q; what came before is rate and lever of the tick.
     float velocity_high[3][3];             ///< u and two high-passes of it.
     jcal_tick_t tick;
