@@ -70,7 +70,7 @@ jcal_vec3_t jcal_attitude_turn(jcal_attitude_t *self, jcal_vec3_t gyr_rad_s, jca
 jcal_lowpass_t jcal_attitude_lowpass(jcal_attitude_t *self, const float level[3], float dt_s)
 {
     jcal_lowpass_t by = {level, 0.0f};
-    if (self->since_s <= JCAL_LOWPASS_TAU_S) {
+    if ((self->since_s + (0.5f * dt_s)) < JCAL_LOWPASS_TAU_S) {
         self->since_s += dt_s;
         by.share = dt_s / self->since_s;
     }

@@ -6,6 +6,8 @@
 
 #include "jointcal/tick.h"
 
+#include <stdbool.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -20,6 +22,9 @@ typedef struct {
     float level_step;                      ///< How fast the level of |a| may change, m/s^3.
     float lever_high[9][3];                ///< Three high-passes of Q; what came before is rate and lever of the tick.
     float velocity_high[3][3];             ///< u and two high-passes of it.
+    jcal_vec3_t
+        first_m_s2;  ///< Half of the first R a - g, until the second sample tells the coefficients by which it is taken in.
+    bool begins;  ///< There was one sample.
     jcal_tick_t tick;
 } jcal_features_t;
 
