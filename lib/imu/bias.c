@@ -73,13 +73,6 @@ static float steady(float sigma, float growth)
     return p + (p * p / growth);
 }
 
-void jcal_bias_set(jcal_tick_rates_t *rates)
-{
-    rates->bias_growth = FORGET_SIGMA * FORGET_SIGMA * (rates->dt_s / FORGET_S);
-    rates->bias_motion2 = steady(SIGMA_MOTION, rates->bias_growth);
-    rates->bias_rest2 = steady(SIGMA_REST, rates->bias_growth);
-}
-
 /// Takes in z = c b + noise, with the innovation z - c b.
 static void update(jcal_gyr_bias_t *self, const float c[3], float innovation, float noise2)
 {
@@ -112,7 +105,7 @@ static void tell_rest(jcal_gyr_bias_t *self, float noise2)
     update(self, unit[2], self->gyr_rad_s.z - self->bias_rad_s.z, noise2);
 }
 
-void jcal_bias_tick(jcal_gyr_bias_t *self, const jcal_tick_rates_t *rates, const jcal_lowpass_t *by, const float r[9],
+void jcal_bias_tick(jcal_gyr_bias_t *self, float dt_s, const jcal_lowpass_t *by, const float r[9],
                     const jcal_vec3_t *correction_rad)
 {
     float c[9];
@@ -123,18 +116,18 @@ void jcal_bias_tick(jcal_gyr_bias_t *self, const jcal_tick_rates_t *rates, const
     for (size_t i = 0u; i < 2u; ++i) {
         taken[i] = jcal_lowpass_put(by, times(&r[3u * i], self->bias_rad_s), &self->part_mean[i], &self->part_slope[i]);
     }
-    self->p[0] += rates->bias_growth;
-    self->p[3] += rates->bias_growth;
-    self->p[5] += rates->bias_growth;
+    const float growth = FORGET_SIGMA * FORGET_SIGMA * (dt_s / FORGET_S);
+    self->p[0] += growth;
+    self->p[3] += growth;
+    self->p[5] += growth;
     if (self->rest_us >= REST_US) {
-        tell_rest(self, rates->bias_rest2);
+        tell_rest(self, steady(SIGMA_REST, growth));
     } else if ((correction_rad != NULL) && !(by->share > 0.0f)) {
-        const float per_s = 1.0f / rates->dt_s;
-        update(self, &c[0], taken[0] - (per_s * correction_rad->x) - times(&c[0], self->bias_rad_s),
-               rates->bias_motion2);
-        update(self, &c[3], taken[1] - (per_s * correction_rad->y) - times(&c[3], self->bias_rad_s),
-               rates->bias_motion2);
-        update(self, &c[6], -times(&c[6], self->bias_rad_s), VERTICAL_VARIANCE * rates->bias_motion2);
+        const float per_s = 1.0f / dt_s;
+        const float noise2 = steady(SIGMA_MOTION, growth);
+        update(self, &c[0], taken[0] - (per_s * correction_rad->x) - times(&c[0], self->bias_rad_s), noise2);
+        update(self, &c[3], taken[1] - (per_s * correction_rad->y) - times(&c[3], self->bias_rad_s), noise2);
+        update(self, &c[6], -times(&c[6], self->bias_rad_s), VERTICAL_VARIANCE * noise2);
     } else {
         /* nothing is told */
     }

@@ -27,11 +27,8 @@ void jcal_bias_restart(jcal_gyr_bias_t *self, const jcal_imu_t *imu);
 /// Follows rest.
 void jcal_bias_sample(jcal_gyr_bias_t *self, const jcal_imu_t *imu, const jcal_sample_rates_t *rates);
 
-/// The coefficients for ticks of `dt_s`.
-void jcal_bias_set(jcal_tick_rates_t *rates);
-
-/// What a tick tells. correction_rad: of the inclination, in the earth frame; null if there was none.
-void jcal_bias_tick(jcal_gyr_bias_t *self, const jcal_tick_rates_t *rates, const jcal_lowpass_t *by, const float r[9],
+/// What a tick of `dt_s` tells. correction_rad: of the inclination, in the earth frame; null if there was none.
+void jcal_bias_tick(jcal_gyr_bias_t *self, float dt_s, const jcal_lowpass_t *by, const float r[9],
                     const jcal_vec3_t *correction_rad);
 
 #endif /* JCAL_IMU_BIAS_H */

@@ -22,7 +22,7 @@
 /// The level of |a| moves by this, m/s^3; at first by LEVEL_BEGIN / time. A level that moves by s has, where |a| scatters by sigma, a time
 /// constant of about 1.25 sigma / s: 10 s for a sigma of 2 m/s^2, as in walking.
 #define LEVEL_M_S3 0.25f
-#define LEVEL_BEGIN_M_S2 2.5f
+#define LEVEL_BEGIN_M_S2 4.0f
 #define SINCE_MAX_S 1000.0f
 
 /// Places of the signals.
@@ -54,12 +54,11 @@ void jcal_features_begin(jcal_features_t *self, const float r[9], const jcal_imu
         self->chain[i][1] = x[i];
         self->chain[i][2] = x[i];
     }
-    self->first_m_s2 = jcal_vec3(0.5f * force_m_s2.x, 0.5f * force_m_s2.y, 0.5f * (force_m_s2.z - GRAVITY_M_S2));
+    self->way_m_s = jcal_vec3(0.5f * force_m_s2.x, 0.5f * force_m_s2.y, 0.5f * (force_m_s2.z - GRAVITY_M_S2));
     (void)memcpy(self->tick.rate, x, sizeof self->tick.rate);
     self->tick.epoch = epoch;
     self->tick.acc_level_m_s2 = jcal_vec3_norm(imu->acc_m_s2);
     self->level_step = LEVEL_BEGIN_M_S2;
-    self->begins = true;
 }
 
 void jcal_features_set_sample(jcal_sample_rates_t *rates)
@@ -98,6 +97,13 @@ static inline void add_way(jcal_features_t *self, const jcal_sample_rates_t *rat
     self->way_m_s.z += half_s * put_sum(self->chain[V + 2], v.z, rates->pole);
 }
 
+void jcal_features_second(jcal_features_t *self, const jcal_sample_rates_t *rates)
+{
+    const jcal_vec3_t first = self->way_m_s;
+    self->way_m_s = jcal_vec3(0.0f, 0.0f, 0.0f);
+    add_way(self, rates, first);
+}
+
 void jcal_features_sample(jcal_features_t *self, const jcal_sample_rates_t *rates, const float r[9],
                           const jcal_imu_t *imu, jcal_vec3_t force_m_s2)
 {
@@ -107,10 +113,6 @@ void jcal_features_sample(jcal_features_t *self, const jcal_sample_rates_t *rate
     rate_matrix(r, w, x);
     for (size_t i = 0u; i < 9u; ++i) {
         (void)put(self->chain[Q + i], x[i], pole);
-    }
-    if (self->begins) {
-        self->begins = false;
-        add_way(self, rates, self->first_m_s2);
     }
     add_way(self, rates, jcal_vec3(force_m_s2.x, force_m_s2.y, force_m_s2.z - GRAVITY_M_S2));
     (void)put(self->chain[W], w.x, pole);

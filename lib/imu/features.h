@@ -21,6 +21,9 @@
 /// The first sample of an epoch: R, w less its bias, a and R a. The tick keeps its count of epochs.
 void jcal_features_begin(jcal_features_t *self, const float r[9], const jcal_imu_t *imu, jcal_vec3_t force_m_s2);
 
+/// Before the second sample of an epoch, whose distance tells how the first one is taken in.
+void jcal_features_second(jcal_features_t *self, const jcal_sample_rates_t *rates);
+
 /// Coefficients for samples `dt_s` apart, and for ticks.
 void jcal_features_set_sample(jcal_sample_rates_t *rates);
 void jcal_features_set_tick(jcal_tick_rates_t *rates);

@@ -77,7 +77,6 @@ static void set_tick_rates(jcal_tick_rates_t *rates, uint32_t dt_us)
     rates->dt_us = dt_us;
     rates->dt_s = (float)dt_us * MICROSECONDS;
     jcal_lowpass_set(rates->level, rates->dt_s);
-    jcal_bias_set(rates);
     jcal_features_set_tick(rates);
 }
 
@@ -86,11 +85,11 @@ static void level(jcal_sensor_t *self, jcal_vec3_t acc_m_s2, float r[9], jcal_ve
 {
     const jcal_tick_rates_t *const rates = &self->tick;
     jcal_vec3_t correction;
-    const jcal_lowpass_t by = jcal_attitude_lowpass(&self->attitude, rates->level, rates->dt_s);
-    const bool corrected = jcal_attitude_level(&self->attitude, &by, &correction);
+    const jcal_lowpass_t by = jcal_lowpass_for(rates->level, self->features.tick.since_s, rates->dt_s);
+    const bool corrected = jcal_attitude_level(&self->attitude, &by, rates->dt_s, &correction);
     jcal_turn_matrix(self->attitude.q_s_e, r);
     *force = jcal_turn_times(r, acc_m_s2);
-    jcal_bias_tick(&self->bias, rates, &by, r, corrected ? &correction : NULL);
+    jcal_bias_tick(&self->bias, rates->dt_s, &by, r, corrected ? &correction : NULL);
 }
 
 /// A sample that goes on from the last one.
@@ -106,6 +105,9 @@ static jcal_status_t go_on(jcal_sensor_t *self, const jcal_reading_t *reading, u
     if (due) {
         set_tick_rates(&self->tick, since_us);
         level(self, imu.acc_m_s2, r, &force);
+    }
+    if (!self->has_tick && (since_us == dt_us)) {
+        jcal_features_second(&self->features, &self->sample);
     }
     jcal_features_sample(&self->features, &self->sample, r, &imu, force);
     if (due) {

@@ -31,6 +31,7 @@ typedef struct {
     jcal_sample_rates_t sample;
     jcal_tick_rates_t tick;
     motion_mount_t mount;
+    bool has_second;
 } fed_t;
 
 static void feed(fed_t *self, const motion_t *motion, bool is_first)
@@ -47,6 +48,10 @@ static void feed(fed_t *self, const motion_t *motion, bool is_first)
     if (is_first) {
         jcal_features_begin(&self->features, r, &imu, to_vec3(force));
     } else {
+        if (!self->has_second) {
+            jcal_features_second(&self->features, &self->sample);
+            self->has_second = true;
+        }
         jcal_features_sample(&self->features, &self->sample, r, &imu, to_vec3(force));
     }
 }
@@ -222,6 +227,45 @@ static void features_are_those_of_double_precision(void)
     assert_like_double(1, 0.1, 400);
 }
 
+/* Every distance of samples another: coefficients follow. */
+static void distances_of_samples_may_vary(void)
+{
+    const double none[3] = {0.3, -0.6, 1.2};
+    const double place[3] = {0.1, 0.2, -0.1};
+    const motion_mount_t mount = motion_mount(none, place, 0.3);
+    fed_t self = fed(&mount, 0.01, 0.05);
+    motion_t motion = motion_begin(LIVELY.rate, LIVELY.force, LIVELY.pace);
+    double_features_t expected;
+    double gyr[3];
+    double acc[3];
+    double turn[9];
+    motion_read(&motion, &mount, gyr, acc, turn);
+    double_features_begin(&expected, turn, gyr, acc);
+    feed(&self, &motion, true);
+    double t_s = 0.0;
+    double tick_s = 0.0;
+    for (int k = 1; k <= 2000; ++k) {
+        const double dt_s = 0.004 + (0.001 * (double)((7 * k) % 13));
+        t_s += dt_s;
+        tick_s += dt_s;
+        self.sample.dt_s = (float)dt_s;
+        jcal_features_set_sample(&self.sample);
+        motion_to(&motion, t_s);
+        motion_read(&motion, &mount, gyr, acc, turn);
+        double_features_sample(&expected, turn, gyr, acc, dt_s);
+        feed(&self, &motion, false);
+        if (k % 5 == 0) {
+            self.tick.dt_s = (float)tick_s;
+            jcal_features_set_tick(&self.tick);
+            double_features_tick(&expected, tick_s);
+            make_tick(&self, &motion);
+            tick_s = 0.0;
+            assert_near(1e-5, expected.lever_low, self.features.tick.lever, 9);
+            TEST_ASSERT_TRUE(fabs(expected.velocity_low[0] - (double)self.features.tick.velocity.x) < 1e-5);
+        }
+    }
+}
+
 /* A body at rest that is level: nothing but R. */
 static void at_rest_there_is_nothing(void)
 {
@@ -252,6 +296,7 @@ int main(void)
     RUN_TEST(two_sensors_of_one_body_tell_the_same_from_the_first_sample_on);
     RUN_TEST(that_holds_at_other_rates_too);
     RUN_TEST(features_are_those_of_double_precision);
+    RUN_TEST(distances_of_samples_may_vary);
     RUN_TEST(at_rest_there_is_nothing);
     return UNITY_END();
 }
