@@ -22,8 +22,8 @@ BUDGETS = target.PORT / "budgets.json"
 PAGE = target.ROOT / "docs/measurements/budget.md"
 M4F = target.PLATFORMS["m4f"]
 ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
-TWO_DOF, CENTER, CHAIN = "two_dof_stream", "center_stream", "chain"
-DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN"}
+TWO_DOF, CENTER, CHAIN, SENSOR = "two_dof_stream", "center_stream", "chain", "sensor"
+DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN", SENSOR: "REPLAY_SENSOR"}
 INSTANCES, RATE_HZ = 16, 100
 SLICES_PER_S, TABLED_HZ = (200, 100, 50, 25), (50, 100)
 LISTED = 8
@@ -134,6 +134,20 @@ def chain(stack: dict[str, int]) -> dict:
             f"{CHAIN}_stack_call_graph_bytes": max(stack.get(f"jcal_chain_{name}", 0) for name in ("push", "step", "get"))}
 
 
+def sensor(stack: dict[str, int]) -> dict:
+    """The stage of one sensor at 100 Hz: jcal_sensor_push, also where no two distances of samples are the same."""
+    recording = target.recordings(["human_knee_left"])[0]
+    counts, _, printed = counts_of(target.build_plugin(), SENSOR, target.readings_file(recording, RATE_HZ), ("REPLAY_STACK",))
+    uneven, _, _ = counts_of(target.build_plugin(), SENSOR, target.readings_file(recording, RATE_HZ, jitter_us=2000), ())
+    return {f"{SENSOR}_step_instructions_max": max(counts["update"]),
+            f"{SENSOR}_step_instructions_mean": round(statistics.mean(counts["update"])),
+            f"{SENSOR}_step_instructions_median": round(statistics.median(counts["update"])),
+            f"{SENSOR}_step_instructions_uneven_max": max(uneven["update"]),
+            f"{SENSOR}_step_instructions_uneven_mean": round(statistics.mean(uneven["update"])),
+            f"{SENSOR}_state_bytes": printed["state"], f"{SENSOR}_stack_painted_bytes": printed["stack"],
+            f"{SENSOR}_stack_call_graph_bytes": stack.get("jcal_sensor_push", 0)}
+
+
 def fewer_slices(recording: Path) -> dict:
     """Instructions of an update by slices_per_s and rate, on the first minute of the recording at that rate."""
     plugin, found = target.build_plugin(), {}
@@ -188,7 +202,7 @@ def measure(samples: Path, recording: Path) -> tuple[dict, dict]:
         numbers[f"hinge_{engine}_state_bytes"] = of["state"]
         numbers[f"hinge_{engine}_stack_painted_bytes"] = of["stack"]
         numbers[f"hinge_{engine}_stack_call_graph_bytes"] = stack.get(f"jcal_{prefix}_update", 0)
-    numbers |= two_dof(stack) | center(stack) | chain(stack)
+    numbers |= two_dof(stack) | center(stack) | chain(stack) | sensor(stack)
     numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
     numbers |= sixteen(recording)
     numbers["hub_flash_bytes"] = linked_bytes("hub") - linked_bytes("hub_empty", ("HUB_EMPTY",))
@@ -218,7 +232,8 @@ def page_of(numbers: dict, code: dict) -> str:
              "`hub_flash_bytes` what one stream engine, fed and read, adds to a linked image with unused sections dropped. Sixteen",
              "hinges: one image, one tick of 10 ms updates all, on the first minute of the recording interpolated to 100 Hz; all",
              "get the same samples, so that their busy moments coincide. `two_dof_stream`: the recording interpolated to 100 Hz (and 50),",
-             "orientations by VQF, whose cost is not in these numbers (port/vqf/README.md has it). In their busiest second that is "
+             "orientations by VQF, whose cost is not in these numbers (port/vqf/README.md has it). `sensor`: jcal_sensor_push, one sensor at 100 Hz;",
+             "`uneven`: samples up to 2 ms off, so that coefficients change with each. Sixteen hinges: in their busiest second that is "
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * low / 1e6:.0f} to",
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * high / 1e6:.0f} million cycles, by the estimate below, of 64 million.", "",
              "Instructions, not cycles; no board was measured. On paper, the instructions of the stream engine on this recording",

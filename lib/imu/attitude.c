@@ -41,10 +41,8 @@ void jcal_attitude_begin(jcal_attitude_t *self, jcal_vec3_t gyr_rad_s, jcal_vec3
     (void)correct(self, jcal_quat_rotate(self->q_s_e, acc_m_s2), &correction);
     self->gyr_rad_s = gyr_rad_s;
     self->sum_m_s = zero;
-    self->sum_s = 0.0f;
     self->mean_m_s2 = zero;
     self->slope_m_s2 = zero;
-    self->since_s = 0.0f;
 }
 
 /// q of nearly unit length to unit length: one step of Newton's method.
@@ -63,30 +61,18 @@ jcal_vec3_t jcal_attitude_turn(jcal_attitude_t *self, jcal_vec3_t gyr_rad_s, jca
     jcal_turn_matrix(self->q_s_e, r);
     const jcal_vec3_t force = jcal_turn_times(r, acc_m_s2);
     self->sum_m_s = jcal_vec3_add(self->sum_m_s, jcal_vec3_scale(force, dt_s));
-    self->sum_s += dt_s;
     return force;
 }
 
-jcal_lowpass_t jcal_attitude_lowpass(jcal_attitude_t *self, const float level[3], float dt_s)
+bool jcal_attitude_level(jcal_attitude_t *self, const jcal_lowpass_t *by, float dt_s, jcal_vec3_t *correction_rad)
 {
-    jcal_lowpass_t by = {level, 0.0f};
-    if (self->since_s <= JCAL_LOWPASS_TAU_S) {
-        self->since_s += dt_s;
-        by.share = dt_s / self->since_s;
-    }
-    return by;
-}
-
-bool jcal_attitude_level(jcal_attitude_t *self, const jcal_lowpass_t *by, jcal_vec3_t *correction_rad)
-{
-    const jcal_vec3_t force = jcal_vec3_scale(self->sum_m_s, 1.0f / self->sum_s);
+    const jcal_vec3_t force = jcal_vec3_scale(self->sum_m_s, 1.0f / dt_s);
     jcal_vec3_t *const mean = &self->mean_m_s2;
     jcal_vec3_t *const slope = &self->slope_m_s2;
     const float x = jcal_lowpass_put(by, force.x, &mean->x, &slope->x);
     const float y = jcal_lowpass_put(by, force.y, &mean->y, &slope->y);
     const float z = jcal_lowpass_put(by, force.z, &mean->z, &slope->z);
     self->sum_m_s = jcal_vec3(0.0f, 0.0f, 0.0f);
-    self->sum_s = 0.0f;
     jcal_quat_t correction;
     if (!correct(self, jcal_vec3(x, y, z), &correction)) {
         return false;

@@ -24,11 +24,8 @@ void jcal_attitude_begin(jcal_attitude_t *self, jcal_vec3_t gyr_rad_s, jcal_vec3
 jcal_vec3_t jcal_attitude_turn(jcal_attitude_t *self, jcal_vec3_t gyr_rad_s, jcal_vec3_t acc_m_s2, float dt_s,
                                float r[9]);
 
-/// The low-pass for a tick of `dt_s`: the running mean at first.
-jcal_lowpass_t jcal_attitude_lowpass(jcal_attitude_t *self, const float level[3], float dt_s);
-
-/// Levels by the mean since the last tick. Outputs: correction, rad: the rotation vector in the earth frame; its z is 0. False if the
+/// Levels by the mean since the last tick, `dt_s` ago. Outputs: correction, rad: the rotation vector in the earth frame; its z is 0. False if the
 /// specific force has no direction (free fall); then nothing is corrected.
-bool jcal_attitude_level(jcal_attitude_t *self, const jcal_lowpass_t *by, jcal_vec3_t *correction_rad);
+bool jcal_attitude_level(jcal_attitude_t *self, const jcal_lowpass_t *by, float dt_s, jcal_vec3_t *correction_rad);
 
 #endif /* JCAL_IMU_ATTITUDE_H */

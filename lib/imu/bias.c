@@ -10,10 +10,12 @@
 
 #include <stddef.h>
 
-/// Standard deviations, rad/s: before anything is known; of the estimate in lasting motion; at lasting rest.
+/// Standard deviations, rad/s: before anything is known; of the estimate in lasting motion; at lasting rest. [VQF] has 0.03 deg/s for the
+/// last, which believes the first reading at once; people who sit or stand still sway by some 0.3 deg/s for seconds, and one such reading
+/// every 2 s leaves 0.065 deg/s.
 #define SIGMA_BEGIN (0.5f * JCAL_RAD_PER_DEG)
 #define SIGMA_MOTION (0.1f * JCAL_RAD_PER_DEG)
-#define SIGMA_REST (0.03f * JCAL_RAD_PER_DEG)
+#define SIGMA_REST (0.065f * JCAL_RAD_PER_DEG)
 /// P of a bias that was just measured grows to (0.1 deg/s)^2 in this time, s.
 #define FORGET_SIGMA (0.1f * JCAL_RAD_PER_DEG)
 #define FORGET_S 100.0f
@@ -22,10 +24,11 @@
 /// How much less the vertical part counts.
 #define VERTICAL_VARIANCE 1e4f
 
-/// Rest: readings differ from their low-passed ones by less than this, rad/s and m/s^2, for this time, s.
+/// Rest: readings differ from their low-passed ones by less than this, rad/s and m/s^2, for this time, us. ([VQF]: 1.5 s; with one-poles
+/// a slow turn of an arm by 1.5 deg/s passed for rest for 1.64 s.)
 #define REST_GYR (2.0f * JCAL_RAD_PER_DEG)
 #define REST_ACC 0.5f
-#define REST_S 1.5f
+#define REST_US 2000000u
 
 void jcal_bias_begin(jcal_gyr_bias_t *self)
 {
@@ -39,7 +42,7 @@ void jcal_bias_restart(jcal_gyr_bias_t *self, const jcal_imu_t *imu)
 {
     self->gyr_rad_s = imu->gyr_rad_s;
     self->acc_m_s2 = imu->acc_m_s2;
-    self->rest_s = 0.0f;
+    self->rest_us = 0u;
     jcal_clear(self->turn_mean, sizeof self->turn_mean);
     jcal_clear(self->turn_slope, sizeof self->turn_slope);
     jcal_clear(self->part_mean, sizeof self->part_mean);
@@ -59,7 +62,8 @@ void jcal_bias_sample(jcal_gyr_bias_t *self, const jcal_imu_t *imu, const jcal_s
     self->acc_m_s2 = jcal_vec3_add(self->acc_m_s2, jcal_vec3_scale(acc, rates->rest));
     const bool rests = (jcal_vec3_dot(gyr, gyr) < (REST_GYR * REST_GYR)) &&
                        (jcal_vec3_dot(acc, acc) < (REST_ACC * REST_ACC)) && is_bias(self->gyr_rad_s);
-    self->rest_s = rests ? jcal_min(self->rest_s + rates->dt_s, REST_S) : 0.0f;
+    const uint32_t lasts_us = (self->rest_us < REST_US) ? (self->rest_us + rates->dt_us) : REST_US;
+    self->rest_us = rests ? lasts_us : 0u;
 }
 
 /// Noise of a reading every tick with which P, which grows by `growth` every tick, stays at sigma^2.
@@ -67,13 +71,6 @@ static float steady(float sigma, float growth)
 {
     const float p = sigma * sigma;
     return p + (p * p / growth);
-}
-
-void jcal_bias_set(jcal_tick_rates_t *rates)
-{
-    rates->bias_growth = FORGET_SIGMA * FORGET_SIGMA * (rates->dt_s / FORGET_S);
-    rates->bias_motion2 = steady(SIGMA_MOTION, rates->bias_growth);
-    rates->bias_rest2 = steady(SIGMA_REST, rates->bias_growth);
 }
 
 /// Takes in z = c b + noise, with the innovation z - c b.
@@ -108,7 +105,7 @@ static void tell_rest(jcal_gyr_bias_t *self, float noise2)
     update(self, unit[2], self->gyr_rad_s.z - self->bias_rad_s.z, noise2);
 }
 
-void jcal_bias_tick(jcal_gyr_bias_t *self, const jcal_tick_rates_t *rates, const jcal_lowpass_t *by, const float r[9],
+void jcal_bias_tick(jcal_gyr_bias_t *self, float dt_s, const jcal_lowpass_t *by, const float r[9],
                     const jcal_vec3_t *correction_rad)
 {
     float c[9];
@@ -119,18 +116,18 @@ void jcal_bias_tick(jcal_gyr_bias_t *self, const jcal_tick_rates_t *rates, const
     for (size_t i = 0u; i < 2u; ++i) {
         taken[i] = jcal_lowpass_put(by, times(&r[3u * i], self->bias_rad_s), &self->part_mean[i], &self->part_slope[i]);
     }
-    self->p[0] += rates->bias_growth;
-    self->p[3] += rates->bias_growth;
-    self->p[5] += rates->bias_growth;
-    if (self->rest_s >= REST_S) {
-        tell_rest(self, rates->bias_rest2);
+    const float growth = FORGET_SIGMA * FORGET_SIGMA * (dt_s / FORGET_S);
+    self->p[0] += growth;
+    self->p[3] += growth;
+    self->p[5] += growth;
+    if (self->rest_us >= REST_US) {
+        tell_rest(self, steady(SIGMA_REST, growth));
     } else if ((correction_rad != NULL) && !(by->share > 0.0f)) {
-        const float per_s = 1.0f / rates->dt_s;
-        update(self, &c[0], taken[0] - (per_s * correction_rad->x) - times(&c[0], self->bias_rad_s),
-               rates->bias_motion2);
-        update(self, &c[3], taken[1] - (per_s * correction_rad->y) - times(&c[3], self->bias_rad_s),
-               rates->bias_motion2);
-        update(self, &c[6], -times(&c[6], self->bias_rad_s), VERTICAL_VARIANCE * rates->bias_motion2);
+        const float per_s = 1.0f / dt_s;
+        const float noise2 = steady(SIGMA_MOTION, growth);
+        update(self, &c[0], taken[0] - (per_s * correction_rad->x) - times(&c[0], self->bias_rad_s), noise2);
+        update(self, &c[3], taken[1] - (per_s * correction_rad->y) - times(&c[3], self->bias_rad_s), noise2);
+        update(self, &c[6], -times(&c[6], self->bias_rad_s), VERTICAL_VARIANCE * noise2);
     } else {
         /* nothing is told */
     }

@@ -37,22 +37,24 @@ static void rate_matrix(const float r[9], jcal_vec3_t w, float out[9])
     }
 }
 
-void jcal_features_begin(jcal_features_t *self, const float r[9], jcal_vec3_t gyr_rad_s)
+void jcal_features_begin(jcal_features_t *self, const float r[9], const jcal_imu_t *imu, jcal_vec3_t force_m_s2)
 {
     const uint32_t epoch = self->tick.epoch + 1u;
-    jcal_clear(self, sizeof *self);
-    self->tick.epoch = epoch;
+    const jcal_vec3_t w = imu->gyr_rad_s;
     float x[JCAL_FEATURE_SIGNALS] = {0.0f};
-    rate_matrix(r, gyr_rad_s, &x[Q]);
-    x[W] = gyr_rad_s.x;
-    x[W + 1] = gyr_rad_s.y;
-    x[W + 2] = gyr_rad_s.z;
+    jcal_clear(self, sizeof *self);
+    rate_matrix(r, w, &x[Q]);
+    x[W] = w.x;
+    x[W + 1] = w.y;
+    x[W + 2] = w.z;
     for (size_t i = 0u; i < JCAL_FEATURE_SIGNALS; ++i) {
         self->chain[i][0] = x[i];
         self->chain[i][1] = x[i];
         self->chain[i][2] = x[i];
     }
+    self->way_m_s = jcal_vec3(0.5f * force_m_s2.x, 0.5f * force_m_s2.y, 0.5f * (force_m_s2.z - GRAVITY_M_S2));
     (void)memcpy(self->tick.rate, x, sizeof self->tick.rate);
+    self->tick.epoch = epoch;
     self->tick.acc_level_m_s2 = GRAVITY_M_S2;
 }
 
@@ -83,6 +85,22 @@ static inline float put_sum(float y[3], float x, float pole)
     return before + put(y, x, pole);
 }
 
+/// Takes in v before its low-pass.
+static inline void add_way(jcal_features_t *self, const jcal_sample_rates_t *rates, jcal_vec3_t v)
+{
+    const float half_s = 0.5f * rates->dt_s;
+    self->way_m_s.x += half_s * put_sum(self->chain[V], v.x, rates->pole);
+    self->way_m_s.y += half_s * put_sum(self->chain[V + 1], v.y, rates->pole);
+    self->way_m_s.z += half_s * put_sum(self->chain[V + 2], v.z, rates->pole);
+}
+
+void jcal_features_second(jcal_features_t *self, const jcal_sample_rates_t *rates)
+{
+    const jcal_vec3_t first = self->way_m_s;
+    self->way_m_s = jcal_vec3(0.0f, 0.0f, 0.0f);
+    add_way(self, rates, first);
+}
+
 void jcal_features_sample(jcal_features_t *self, const jcal_sample_rates_t *rates, const float r[9],
                           const jcal_imu_t *imu, jcal_vec3_t force_m_s2)
 {
@@ -93,10 +111,7 @@ void jcal_features_sample(jcal_features_t *self, const jcal_sample_rates_t *rate
     for (size_t i = 0u; i < 9u; ++i) {
         (void)put(self->chain[Q + i], x[i], pole);
     }
-    const float half_s = 0.5f * rates->dt_s;
-    self->way_m_s.x += half_s * put_sum(self->chain[V], force_m_s2.x, pole);
-    self->way_m_s.y += half_s * put_sum(self->chain[V + 1], force_m_s2.y, pole);
-    self->way_m_s.z += half_s * put_sum(self->chain[V + 2], force_m_s2.z - GRAVITY_M_S2, pole);
+    add_way(self, rates, jcal_vec3(force_m_s2.x, force_m_s2.y, force_m_s2.z - GRAVITY_M_S2));
     (void)put(self->chain[W], w.x, pole);
     (void)put(self->chain[W + 1], w.y, pole);
     (void)put(self->chain[W + 2], w.z, pole);

@@ -11,14 +11,18 @@
 ///     u <- (1 - b)(u + I), I <- 0,   U = L H H u,   B = L H H H Q.
 ///
 /// The derivative of R is R [w]x, so B is R through the same filters as the position r would go: one high-pass of Q is what u is of v. All
-/// begin as if the first sample had always been: Q and wl at its values, v at 0, each high-pass with x before = its first x.
+/// begin as if the first sample had always been: Q and wl at its values, each high-pass with x before = its first x. v begins at 0, and its
+/// first value counts half, as the first one of a trapezoidal rule does: without it I and the change of Q would differ by dt v / 2.
 #ifndef JCAL_IMU_FEATURES_H
 #define JCAL_IMU_FEATURES_H
 
 #include "jointcal/private/sensor/stage.h"
 
-/// The first sample of an epoch. The tick keeps its count of epochs.
-void jcal_features_begin(jcal_features_t *self, const float r[9], jcal_vec3_t gyr_rad_s);
+/// The first sample of an epoch: R, w less its bias, a and R a. The tick keeps its count of epochs.
+void jcal_features_begin(jcal_features_t *self, const float r[9], const jcal_imu_t *imu, jcal_vec3_t force_m_s2);
+
+/// Before the second sample of an epoch, whose distance tells how the first one is taken in.
+void jcal_features_second(jcal_features_t *self, const jcal_sample_rates_t *rates);
 
 /// Coefficients for samples `dt_s` apart, and for ticks.
 void jcal_features_set_sample(jcal_sample_rates_t *rates);

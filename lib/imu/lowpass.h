@@ -7,6 +7,8 @@
 #ifndef JCAL_IMU_LOWPASS_H
 #define JCAL_IMU_LOWPASS_H
 
+#include <stdbool.h>
+
 /// Time constant, s, as [VQF] counts it: w = sqrt(2) / tau. So long the running mean is taken.
 #define JCAL_LOWPASS_TAU_S 3.0f
 #define JCAL_LOWPASS_SQRT2 1.41421356f
@@ -25,6 +27,14 @@ static inline void jcal_lowpass_set(float level[3], float dt_s)
     level[0] = 1.0f / (1.0f + (g * (g + JCAL_LOWPASS_SQRT2)));
     level[1] = g * level[0];
     level[2] = g * level[1];
+}
+
+/// The low-pass for a step of `dt_s` that begins `since_s` after the start: the running mean at first.
+static inline jcal_lowpass_t jcal_lowpass_for(const float *level, float since_s, float dt_s)
+{
+    const bool is_mean = (since_s + (0.5f * dt_s)) < JCAL_LOWPASS_TAU_S;
+    const jcal_lowpass_t by = {level, is_mean ? (dt_s / (since_s + dt_s)) : 0.0f};
+    return by;
 }
 
 /// Takes in x; returns y.

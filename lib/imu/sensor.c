@@ -39,15 +39,21 @@ static bool is_within(jcal_vec3_t v, float limit)
     return (fabsf(v.x) <= limit) && (fabsf(v.y) <= limit) && (fabsf(v.z) <= limit);
 }
 
+/// A reading less the bias of the gyroscope.
+static jcal_imu_t unbiased(const jcal_sensor_t *self, const jcal_imu_t *imu)
+{
+    const jcal_imu_t out = {jcal_vec3_sub(imu->gyr_rad_s, self->bias.bias_rad_s), imu->acc_m_s2};
+    return out;
+}
+
 static void begin_epoch(jcal_sensor_t *self, const jcal_reading_t *reading)
 {
-    const jcal_imu_t *const imu = &reading->imu;
-    const jcal_vec3_t gyr = jcal_vec3_sub(imu->gyr_rad_s, self->bias.bias_rad_s);
+    const jcal_imu_t imu = unbiased(self, &reading->imu);
     float r[9];
-    jcal_attitude_begin(&self->attitude, gyr, imu->acc_m_s2);
+    jcal_attitude_begin(&self->attitude, imu.gyr_rad_s, imu.acc_m_s2);
     jcal_turn_matrix(self->attitude.q_s_e, r);
-    jcal_bias_restart(&self->bias, imu);
-    jcal_features_begin(&self->features, r, gyr);
+    jcal_bias_restart(&self->bias, &reading->imu);
+    jcal_features_begin(&self->features, r, &imu, jcal_turn_times(r, imu.acc_m_s2));
     self->tick_us = reading->t_us;
     self->has_tick = false;
 }
@@ -71,7 +77,6 @@ static void set_tick_rates(jcal_tick_rates_t *rates, uint32_t dt_us)
     rates->dt_us = dt_us;
     rates->dt_s = (float)dt_us * MICROSECONDS;
     jcal_lowpass_set(rates->level, rates->dt_s);
-    jcal_bias_set(rates);
     jcal_features_set_tick(rates);
 }
 
@@ -80,29 +85,31 @@ static void level(jcal_sensor_t *self, jcal_vec3_t acc_m_s2, float r[9], jcal_ve
 {
     const jcal_tick_rates_t *const rates = &self->tick;
     jcal_vec3_t correction;
-    const jcal_lowpass_t by = jcal_attitude_lowpass(&self->attitude, rates->level, rates->dt_s);
-    const bool corrected = jcal_attitude_level(&self->attitude, &by, &correction);
+    const jcal_lowpass_t by = jcal_lowpass_for(rates->level, self->features.tick.since_s, rates->dt_s);
+    const bool corrected = jcal_attitude_level(&self->attitude, &by, rates->dt_s, &correction);
     jcal_turn_matrix(self->attitude.q_s_e, r);
     *force = jcal_turn_times(r, acc_m_s2);
-    jcal_bias_tick(&self->bias, rates, &by, r, corrected ? &correction : NULL);
+    jcal_bias_tick(&self->bias, rates->dt_s, &by, r, corrected ? &correction : NULL);
 }
 
 /// A sample that goes on from the last one.
 static jcal_status_t go_on(jcal_sensor_t *self, const jcal_reading_t *reading, uint32_t dt_us)
 {
-    const jcal_imu_t *const imu = &reading->imu;
     const uint32_t since_us = (uint32_t)(reading->t_us - self->tick_us);
     const bool due = ((2u * since_us) + dt_us) >= (2u * TICK_US);
     set_sample_rates(&self->sample, dt_us);
-    jcal_bias_sample(&self->bias, imu, &self->sample);
-    const jcal_imu_t unbiased = {jcal_vec3_sub(imu->gyr_rad_s, self->bias.bias_rad_s), imu->acc_m_s2};
+    jcal_bias_sample(&self->bias, &reading->imu, &self->sample);
+    const jcal_imu_t imu = unbiased(self, &reading->imu);
     float r[9];
-    jcal_vec3_t force = jcal_attitude_turn(&self->attitude, unbiased.gyr_rad_s, unbiased.acc_m_s2, self->sample.dt_s, r);
+    jcal_vec3_t force = jcal_attitude_turn(&self->attitude, imu.gyr_rad_s, imu.acc_m_s2, self->sample.dt_s, r);
     if (due) {
         set_tick_rates(&self->tick, since_us);
-        level(self, unbiased.acc_m_s2, r, &force);
+        level(self, imu.acc_m_s2, r, &force);
     }
-    jcal_features_sample(&self->features, &self->sample, r, &unbiased, force);
+    if (!self->has_tick && (since_us == dt_us)) {
+        jcal_features_second(&self->features, &self->sample);
+    }
+    jcal_features_sample(&self->features, &self->sample, r, &imu, force);
     if (due) {
         jcal_features_tick(&self->features, &self->tick, r);
         self->features.tick.t_us = reading->t_us;

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: MIT */
 /* Replays samples through an engine and prints a hash of every result, on the host and on a target.
  *
- * Reads `samples.bin` (records laid out like jcal_pair_t, jcal_orientation_pair_t or jcal_triple_t, little endian) from the working directory; on a target that is
- * a file of the host, by semihosting. Equal hashes mean equal bits of every field of every result. The functions
+ * Reads `samples.bin` (records laid out like jcal_pair_t, jcal_orientation_pair_t, jcal_triple_t or jcal_reading_t, little endian) from
+ * the working directory; on a target that is a file of the host, by semihosting. Equal hashes mean equal bits of every field of every result. The functions
  * replay_mark_* tell tools/budget.py's instruction counter where a call begins and ends.
  *
  * Compile definitions: REPLAY_TWO_DOF, REPLAY_CENTER, REPLAY_CHAIN (stream engine of the 2-DoF joint, of the joint centre, of
- * hip and knee; otherwise that of the hinge), REPLAY_WINDOW (window engine of the hinge, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
+ * hip and knee; otherwise that of the hinge), REPLAY_SENSOR (the stage of one sensor), REPLAY_WINDOW (window engine of the hinge, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
  * the stack before every call and print how deep the deepest one went). */
 #include "jointcal/center.h"
 #include "jointcal/chain.h"
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_window.h"
+#include "jointcal/sensor.h"
 #include "jointcal/two_dof.h"
 
 #include <math.h>
@@ -25,6 +26,7 @@ enum { CHUNK = 64, N_MAX = 125, PAINT_WORDS = 1024 };
 
 typedef char pair_has_no_padding[(sizeof(jcal_pair_t) == 56) ? 1 : -1];
 typedef char triple_has_no_padding[(sizeof(jcal_triple_t) == 80) ? 1 : -1];
+typedef char reading_has_no_padding[(sizeof(jcal_reading_t) == 32) ? 1 : -1];
 typedef char orientations_have_no_padding[(sizeof(jcal_orientation_pair_t) == 40) ? 1 : -1];
 
 #ifdef REPLAY_TWO_DOF
@@ -81,6 +83,32 @@ static jcal_status_t engine_init(void)
 {
     const jcal_chain_config_t config = jcal_chain_config_default();
     return jcal_chain_init(&replayed, &config);
+}
+#elif defined(REPLAY_SENSOR)
+typedef jcal_reading_t sample_t;
+typedef struct {
+    jcal_quat_t orientation;
+    jcal_vec3_t bias;
+    jcal_tick_t tick;
+} result_t;
+static jcal_sensor_t replayed;
+#define engine_update jcal_sensor_push
+
+static jcal_status_t engine_init(void)
+{
+    return jcal_sensor_init(&replayed);
+}
+
+static jcal_status_t engine_get(const jcal_sensor_t *self, result_t *out)
+{
+    const jcal_tick_t *const tick = jcal_sensor_tick(self);
+    memset(out, 0, sizeof(*out));
+    out->orientation = jcal_sensor_orientation(self);
+    out->bias = jcal_sensor_gyr_bias(self);
+    if (tick != NULL) {
+        out->tick = *tick;
+    }
+    return JCAL_OK;
 }
 #else
 typedef jcal_pair_t sample_t;
@@ -222,6 +250,29 @@ static uint64_t hash_f32(uint64_t hash, float value)
     return hash_u64(hash, bits, 4);
 }
 
+#ifdef REPLAY_SENSOR
+static uint64_t hash_array(uint64_t hash, const float *values, size_t count)
+{
+    for (size_t k = 0; k < count; ++k) {
+        hash = hash_f32(hash, values[k]);
+    }
+    return hash;
+}
+
+static uint64_t hash_result(uint64_t hash, const result_t *r)
+{
+    const jcal_tick_t *const tick = &r->tick;
+    const float floats[] = {r->orientation.w, r->orientation.x, r->orientation.y, r->orientation.z,
+                            r->bias.x,        r->bias.y,        r->bias.z,        tick->velocity.x,
+                            tick->velocity.y, tick->velocity.z, tick->gyr.x,      tick->gyr.y,
+                            tick->gyr.z,      tick->dt_s,       tick->since_s,    tick->acc_level_m_s2};
+    hash = hash_array(hash, floats, sizeof(floats) / sizeof(floats[0]));
+    hash = hash_array(hash, tick->turn, 9);
+    hash = hash_array(hash, tick->rate, 9);
+    hash = hash_array(hash, tick->lever, 9);
+    return hash_u64(hash_u64(hash, tick->epoch, 4), tick->t_us, 8);
+}
+#else
 #ifdef REPLAY_TWO_DOF
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {
@@ -292,6 +343,7 @@ static uint64_t hash_result(uint64_t hash, const result_t *r)
     }
     return hash_u64(hash, h->t_us, 8);
 }
+#endif
 
 int main(void)
 {

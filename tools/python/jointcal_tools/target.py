@@ -86,6 +86,18 @@ def vqf(rows: list[list[float]], sensor: int, period_s: float) -> list[tuple[flo
     return [tuple(out[4 * k:4 * k + 4]) for k in range(len(rows))]
 
 
+def readings_file(recording: Path, rate_hz: float | None = None, seconds: float = 60.0, jitter_us: int = 0) -> Path:
+    """As samples_file, of sensor 2 alone, as jcal_reading_t. Times off by up to jitter_us: no two distances are the same."""
+    folder = WORK / "readings" / (recording.stem + (f"_{rate_hz:g}hz" if rate_hz else "") + (f"_{jitter_us}us" if jitter_us else ""))
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = rows_of(recording, "2")
+    rows = resampled(rows, rate_hz, seconds) if rate_hz else rows
+    part = folder / f"samples.{os.getpid()}"
+    part.write_bytes(b"".join(struct.pack("<Q6f", round(row[0] * 1e6) + (k * k * 7919) % (jitter_us + 1), *row[1:])
+                              for k, row in enumerate(rows)))
+    return part.replace(folder / "samples.bin")
+
+
 def triples_file(recording: Path, rate_hz: float | None = None, seconds: float = 60.0) -> Path:
     """As samples_file, of three sensors."""
     return samples_file(recording, rate_hz, seconds, THREE_SENSORS)

@@ -14,11 +14,9 @@ extern "C" {
 typedef struct {
     jcal_quat_t q_s_e;       ///< Sensor to earth.
     jcal_vec3_t gyr_rad_s;   ///< Rate of the last sample, less its bias.
-    jcal_vec3_t sum_m_s;     ///< Integral of R a since the last tick ...
-    float sum_s;             ///< ... and its time.
+    jcal_vec3_t sum_m_s;     ///< Integral of R a since the last tick.
     jcal_vec3_t mean_m_s2;   ///< Low-passed R a ...
     jcal_vec3_t slope_m_s2;  ///< ... and the second state of the low-pass.
-    float since_s;           ///< Time in the running mean; beyond the time constant: the low-pass works.
 } jcal_attitude_t;
 
 #ifdef __cplusplus

@@ -16,9 +16,11 @@ extern "C" {
 /// The filters, and the last tick.
 typedef struct {
     float chain[JCAL_FEATURE_SIGNALS][3];  ///< Three one-poles in series each.
-    jcal_vec3_t way_m_s;                   ///< I: integral of v since the last tick.
-    float lever_high[9][3];                ///< Three high-passes of Q; what came before is rate and lever of the tick.
-    float velocity_high[3][3];             ///< u and two high-passes of it.
+    /// I: integral of v since the last tick. Between the first sample and the second, whose distance tells the coefficients: half of the
+    /// first R a - g, m/s^2.
+    jcal_vec3_t way_m_s;
+    float lever_high[9][3];     ///< Three high-passes of Q; what came before is rate and lever of the tick.
+    float velocity_high[3][3];  ///< u and two high-passes of it.
     jcal_tick_t tick;
 } jcal_features_t;
 

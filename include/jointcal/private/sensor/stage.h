@@ -26,12 +26,9 @@ typedef struct {
 typedef struct {
     uint32_t dt_us;  ///< The distance for which they hold; 0: none.
     float dt_s;
-    float high_keep;     ///< What a high-pass of 0.4 Hz keeps.
-    float low_pole;      ///< Share of a new value in a one-pole of 3 Hz.
-    float level[3];      ///< Low-pass of the inclination; lib/imu/lowpass.h.
-    float bias_growth;   ///< What a tick adds to the variance of each component of the bias, (rad/s)^2.
-    float bias_motion2;  ///< Variance of what a tick tells of the bias in motion ...
-    float bias_rest2;    ///< ... and at rest, (rad/s)^2.
+    float high_keep;  ///< What a high-pass of 0.4 Hz keeps.
+    float low_pole;   ///< Share of a new value in a one-pole of 3 Hz.
+    float level[3];   ///< Low-pass of the inclination; lib/imu/lowpass.h.
 } jcal_tick_rates_t;
 
 /// One sensor. Caller-owned, plain, copyable; all members are private.
