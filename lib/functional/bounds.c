@@ -6,6 +6,7 @@
 #include "functional/axes.h"
 #include "functional/headings.h"
 #include "functional/model.h"
+#include "jointcal/functional.h"
 #include "jointcal/vec3.h"
 #include "math/chol.h"
 #include "math/plane.h"
@@ -109,10 +110,16 @@ static void finish(jcal_functional_t *self)
         verdict->bound1_rad = jcal_min(floor_rad + (growth * widest(p[0], p[1], p[2])), JCAL_BOUND_UNKNOWN_RAD);
         verdict->bound2_rad = jcal_min(floor_rad + (growth * widest(p[5], p[8], p[9])), JCAL_BOUND_UNKNOWN_RAD);
     }
-    const float bound = jcal_max(verdict->bound1_rad, verdict->bound2_rad);
-    const float straight = 2.0f * self->point.size[JCAL_FAMILY_TURN];
-    const float bent = 0.5f * verdict->bend_rad * bound;
-    verdict->flexion_rad = bound * sqrtf(straight + (bent * bent));
+}
+
+float jcal_functional_flexion_error(const jcal_functional_t *self, float bound_rad)
+{
+    if ((self == NULL) || !self->search.has_estimate) {
+        return JCAL_BOUND_UNKNOWN_RAD;
+    }
+    const float leaning = 2.0f * self->point.size[JCAL_FAMILY_TURN];
+    const float bent = 0.5f * self->verdict.bend_rad * bound_rad;
+    return jcal_min(bound_rad * sqrtf(leaning + (bent * bent)), JCAL_BOUND_UNKNOWN_RAD);
 }
 
 void jcal_functional_bound(jcal_functional_t *self, unsigned part)

@@ -7,6 +7,7 @@
 #include "functional/model.h"
 #include "joint/hysteresis.h"
 #include "joint/sign.h"
+#include "jointcal/functional.h"
 #include "jointcal/vec3.h"
 #include "math/eig.h"
 #include "math/scalar.h"
@@ -192,6 +193,7 @@ void jcal_functional_judge(jcal_functional_t *self)
     const bool was_ready = verdict->status == (uint8_t)JCAL_READY;
     const float slack = was_ready ? JCAL_HYSTERESIS : 1.0f;
     const float bound = jcal_max(verdict->bound1_rad, verdict->bound2_rad);
+    verdict->flexion_rad = jcal_functional_flexion_error(self, bound);
     verdict->for_axes = bound <= (slack * self->cfg.max_bound_rad);
     verdict->for_flexion =
         (verdict->flexion_rad <= (slack * self->cfg.max_flexion_rad)) && (bound <= (slack * BOUND_FOR_FLEXION_RAD));

@@ -8,6 +8,7 @@
 #include "math/scalar.h"
 
 #include <float.h>
+#include <math.h>
 
 /// Evidence at which the pairing is certain, as in functional/judge.c.
 #define EVIDENCE_ENOUGH 7.0f
@@ -29,6 +30,7 @@ static void say_axes(const jcal_functional_t *self, jcal_functional_result_t *ou
     out->joint_to_sensor1_m = point->r1;
     out->joint_to_sensor2_m = point->r2;
     out->bend_rad = verdict->bend_rad;
+    out->rate_share = sqrtf(point->size[JCAL_FAMILY_RATE]);
     const float left = point->lack / jcal_max(self->sums.motion_s, FLT_MIN);
     out->sign_margin = jcal_min(verdict->opposite / jcal_max(left, FLT_MIN), MARGIN_MAX);
     const float evidence = verdict->evidence[0] + verdict->evidence[1] + verdict->evidence[2];
