@@ -9,6 +9,7 @@
 #include "output/angle_table.h"
 #include "run/angle_source.h"
 #include "run/reading.h"
+#include "units.h"
 
 #include <errno.h>
 #include <math.h>

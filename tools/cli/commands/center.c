@@ -4,6 +4,7 @@
 #include "input/calibration_file.h"
 #include "options/values.h"
 #include "run/calibrate.h"
+#include "units.h"
 
 #include "jointcal/jointcal.h"
 

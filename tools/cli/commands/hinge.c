@@ -4,6 +4,7 @@
 
 #include "commands/commands.h"
 #include "run/calibrate.h"
+#include "units.h"
 
 #include "jointcal/jointcal.h"
 

@@ -5,6 +5,7 @@
 #include "commands/commands.h"
 #include "options/values.h"
 #include "run/calibrate.h"
+#include "units.h"
 
 #include "jointcal/jointcal.h"
 
