@@ -4,6 +4,7 @@
 #include "hinge/window_solve.h"
 
 #include "hinge/window_accept.h"
+#include "jointcal/hinge_window.h"
 #include "math/rng.h"
 #include "math/solve.h"
 #include "math/sphere.h"
