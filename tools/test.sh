@@ -8,14 +8,15 @@ source tools/maintain/packages.sh
 usage() {
     cat << 'END'
 usage: tools/test.sh               builds and tests for the PC and for one microcontroller, in under 8 minutes on two cores
-       tools/test.sh --all         every part; what CI runs; under 40 minutes on two cores
+       tools/test.sh --all         every part; what CI runs; about half an hour on two cores
        tools/test.sh --only PART...   these parts only
        tools/test.sh --list        the parts, and what each needs
 
 Installs what is missing, as root; otherwise it prints the command that root has to run, and goes on with what is there. A
 part that cannot run because a tool or a fetched source is missing is left out, and the last lines say so. A part that fails
-does not stop the others. Unit tests that repeat long motions (label long of CTest) run on one microcontroller, m4f; m3, m7 and m33
-leave them out, and bits compares whole runs of the engines on the PC, m4f and m3 bit by bit. Exit status 1 if a test or a step failed, 2 for wrong arguments. Log files are in build/logs.
+does not stop the others. Unit tests that repeat long motions (label long of CTest) run on one microcontroller, m4f; m3, m7
+and m33 leave them out, and bits compares whole runs of the engines on the PC, m4f and m3 bit by bit. Exit status 1 if a test
+or a step failed, 2 for wrong arguments. Log files are in build/logs.
 
 JOINTCAL_DATA   folder with the real recordings (default data/); tests that need them are skipped without.
 CI=true         what was not tested for lack of a tool or a fetched source counts as failed. Recordings do not.
