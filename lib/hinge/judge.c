@@ -9,6 +9,7 @@
 #include "hinge/refine.h"
 #include "hinge/search.h"
 #include "joint/hysteresis.h"
+#include "jointcal/head.h"
 #include "math/scalar.h"
 
 #include <math.h>

@@ -12,7 +12,7 @@ float jcal_two_dof_make_step(jcal_gn_t *gn, const jcal_gn_model_t *model, jcal_t
     for (size_t i = 0u; i < model->n; ++i) {
         d[i] = 0.0f;
     }
-    if (jcal_gn_step(gn, model, d, predicted) != JCAL_OK) {
+    if (!jcal_gn_step(gn, model, d, predicted)) {
         return JCAL_TWO_DOF_STEP_MAX_RAD;
     }
     const float length = jcal_gn_length(d, model->n);
