@@ -26,7 +26,10 @@ static bool is_zero(jcal_vec3_t v)
 
 const char *jcal_chain_config_check(const jcal_chain_config_t *config)
 {
-    const char *const wrong = jcal_center_config_check((config == NULL) ? NULL : &config->center);
+    if (config == NULL) {
+        return "config";
+    }
+    const char *const wrong = jcal_center_config_check(&config->center);
     if (wrong != NULL) {
         return wrong;
     }
