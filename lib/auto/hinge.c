@@ -4,6 +4,7 @@
 #include "jointcal/functional_pair.h"
 #include "jointcal/hinge_auto.h"
 #include "jointcal/vec3.h"
+#include "math/scalar.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -125,7 +126,7 @@ jcal_status_t jcal_hinge_auto_get(const jcal_hinge_auto_t *self, jcal_hinge_auto
     out->ready_for = purpose(out, &functional);
     out->bend_rad = functional.bend_rad;
     out->flexion_uncertainty_rad = jcal_functional_flexion_error(
-        &self->functional.joint, fmaxf(out->hinge.uncertainty1_rad, out->hinge.uncertainty2_rad));
+        &self->functional.joint, jcal_max(out->hinge.uncertainty1_rad, out->hinge.uncertainty2_rad));
     out->heading = functional.heading;
     out->has_levers = functional.has_axes;
     out->joint_to_sensor1_m = functional.joint_to_sensor1_m;

@@ -71,7 +71,7 @@ static void take_out(const jcal_functional_sums_t *sums, const jcal_functional_p
     float nuisance[JCAL_SYM_SIZE(3u)];
     jcal_functional_bound_coupling(sums, point, b, q);
     jcal_functional_bound_nuisance(sums, point, b, nuisance);
-    if (jcal_chol_factor(nuisance, 3u, nuisance, NULL) != JCAL_OK) {
+    if (!jcal_chol_factor(nuisance, 3u, nuisance, NULL)) {
         jcal_sym_zero(hessian, 4u); /* the block is not at a minimum: nothing is known */
         return;
     }
@@ -100,7 +100,7 @@ static void finish(jcal_functional_t *self)
     verdict->bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
     verdict->bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
     float factor[JCAL_SYM_SIZE(4u)];
-    if (jcal_chol_factor(verdict->hessian, 4u, factor, NULL) == JCAL_OK) {
+    if (jcal_chol_factor(verdict->hessian, 4u, factor, NULL)) {
         float p[JCAL_SYM_SIZE(4u)];
         jcal_chol_inverse(factor, 4u, p);
         const float person = jcal_min(self->point.size[JCAL_FAMILY_RATE] / PERSON_RATE, 1.0f);

@@ -67,7 +67,7 @@ static float best_alignment(const float *g)
     }
     float values[3];
     float vectors[9];
-    if (jcal_eig_symmetric(square, 3u, values, vectors) != JCAL_OK) {
+    if (!jcal_eig_symmetric(square, 3u, values, vectors)) {
         return 0.0f;
     }
     const jcal_vec3_t x = {g[0], g[1], g[2]};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// What the functional joint says.
+#include "joint/head.h"
 #include "joint/sign.h"
 #include "jointcal/functional.h"
 #include "jointcal/vec3.h"
@@ -14,11 +15,6 @@
 #define EVIDENCE_ENOUGH 7.0f
 /// Largest margin that is told.
 #define MARGIN_MAX 1e6f
-
-static float progress(float value, float limit)
-{
-    return jcal_min(1.0f, limit / jcal_max(value, FLT_MIN));
-}
 
 static void say_axes(const jcal_functional_t *self, jcal_functional_result_t *out)
 {
@@ -35,8 +31,8 @@ static void say_axes(const jcal_functional_t *self, jcal_functional_result_t *ou
     out->sign_margin = jcal_min(verdict->opposite / jcal_max(left, FLT_MIN), MARGIN_MAX);
     const float evidence = verdict->evidence[0] + verdict->evidence[1] + verdict->evidence[2];
     out->progress_sign = jcal_max(0.0f, jcal_min(1.0f, evidence / EVIDENCE_ENOUGH));
-    out->progress_axis1 = progress(verdict->bound1_rad, self->cfg.max_bound_rad);
-    out->progress_axis2 = progress(verdict->bound2_rad, self->cfg.max_bound_rad);
+    out->progress_axis1 = jcal_head_progress(verdict->bound1_rad, self->cfg.max_bound_rad);
+    out->progress_axis2 = jcal_head_progress(verdict->bound2_rad, self->cfg.max_bound_rad);
     out->heading.known = self->track.known;
     out->heading.heading_rad = self->track.known ? jcal_atan2(self->track.heading.im, self->track.heading.re) : 0.0f;
 }
