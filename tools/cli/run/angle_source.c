@@ -8,6 +8,9 @@
 /* Memory of the heading unless --window says otherwise, s. */
 #define MEMORY_S 10.0f
 
+/* What an angle is off by besides its axes, rms: inclinations and headings of both sensors. */
+#define ANGLE_NOISE_RAD 0.009f
+
 /* The sign that an axis had before, or the one that the command line asks for. */
 static jcal_vec3_t settle_sign(jcal_vec3_t axis, bool has_before, jcal_vec3_t before, bool has_toward,
                                jcal_vec3_t toward)
@@ -37,6 +40,14 @@ static void set_axes(angle_source_t *source, jcal_vec3_t axis1, jcal_vec3_t axis
     joint->known = true;
 }
 
+/* How far the angle may be off, its own zero apart: what the axes make of it, and what orientations and skin do besides. */
+static float angle_bound(const jcal_hinge_auto_result_t *result)
+{
+    const float axes = result->flexion_uncertainty_rad;
+    return (axes < JCAL_BOUND_UNKNOWN_RAD) ? 2.0f * sqrtf((axes * axes) + (ANGLE_NOISE_RAD * ANGLE_NOISE_RAD))
+                                           : fmaxf(result->hinge.uncertainty1_rad, result->hinge.uncertainty2_rad);
+}
+
 static bool is_accepted(const angle_source_t *source, bool has_axes)
 {
     return source->head.status == JCAL_READY || (source->config.accept_best && has_axes);
@@ -46,20 +57,23 @@ static bool is_accepted(const angle_source_t *source, bool has_axes)
 static bool update_engine(angle_source_t *source, const recording_row_t *row,
                           const jcal_orientation_pair_t *orientations)
 {
-    source->joint.known = false;
+    source->joint.known = source->given;
     if (source->config.hinge) {
         jcal_pair_t pair = {orientations->t_us, row->imu1, row->imu2};
         if (!row->has_time) {
             pair.imu1.gyr_rad_s.x = NAN;
         }
-        jcal_hinge_result_t result;
-        if (jcal_hinge_update(&source->hinge, &pair) < 0 || jcal_hinge_get(&source->hinge, &result) != JCAL_OK) {
+        jcal_hinge_auto_result_t result;
+        if (jcal_hinge_auto_update(&source->hinge, &pair) < 0 ||
+            jcal_hinge_auto_get(&source->hinge, &result) != JCAL_OK) {
             return false;
         }
-        source->head = result.head;
-        if (is_accepted(source, result.has_axes)) {
-            set_axes(source, result.axis1, result.axis2, 0.0f);
-            source->joint.bound_rad = fmaxf(result.uncertainty1_rad, result.uncertainty2_rad);
+        const jcal_hinge_result_t *hinge = &result.hinge;
+        source->head = hinge->head;
+        source->own_heading = result.heading;
+        if (!source->given && is_accepted(source, hinge->has_axes)) {
+            set_axes(source, hinge->axis1, hinge->axis2, 0.0f);
+            source->joint.bound_rad = angle_bound(&result);
         }
         return true;
     }
@@ -85,6 +99,10 @@ static bool update_heading(angle_source_t *source, const jcal_orientation_pair_t
     const bool hinge = source->config.hinge;
     const float memory_s = (source->config.window_s > 0.0f) ? source->config.window_s : MEMORY_S;
     *heading = (jcal_heading_t){joint->heading_rad, joint->known};
+    if (source->config.own_orientations && !source->given) {
+        *heading = (jcal_heading_t){source->own_heading.heading_rad, joint->known && source->own_heading.known};
+        return true;
+    }
     if (!joint->known || (!hinge && !source->given)) {
         return true;
     }
@@ -131,11 +149,11 @@ bool angle_source_start(angle_source_t *source, const angle_source_config_t *con
     source->config = *config;
     source->given = calibration != NULL;
     source->gate_config = jcal_gate_config_default();
-    jcal_hinge_config_t hinge = jcal_hinge_config_default();
+    jcal_hinge_auto_config_t hinge = jcal_hinge_auto_config_default();
     jcal_two_dof_config_t two_dof = jcal_two_dof_config_default();
-    hinge.sign_hint = config->sign_hint;
+    hinge.hinge.sign_hint = config->sign_hint;
     if (config->max_bound_rad > 0.0f) {
-        hinge.max_bound_rad = config->max_bound_rad;
+        hinge.hinge.max_bound_rad = config->max_bound_rad;
         two_dof.max_bound_rad = config->max_bound_rad;
     }
     if (config->window_s > 0.0f) {
@@ -144,7 +162,7 @@ bool angle_source_start(angle_source_t *source, const angle_source_config_t *con
     if (calibration != NULL) {
         set_axes(source, calibration->axis1, calibration->axis2, calibration->carrying_angle_rad);
     }
-    return jcal_hinge_init(&source->hinge, &hinge) == JCAL_OK &&
+    return jcal_hinge_auto_init(&source->hinge, &hinge) == JCAL_OK &&
            jcal_two_dof_init(&source->two_dof, &two_dof) == JCAL_OK;
 }
 
@@ -171,6 +189,7 @@ bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, bo
 {
     const recording_row_t *row = &oriented->row;
     jcal_orientation_pair_t orientations = {row_clock_advance(&source->clock, row), row->q1, row->q2};
+    const bool runs = !source->given || source->config.own_orientations;
     if (!row->has_time || oriented->reject != JCAL_REJECT_NONE) {
         orientations.q1.w = NAN; /* the library's time has no NaN; the sample has */
     }
@@ -179,10 +198,14 @@ bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, bo
         source->has_follower = false;
     }
     *out = (angles_row_t){.t_us = row->t_us, .has_time = row->has_time};
-    const bool usable = is_usable(jcal_orientation_gate_check(&source->gate, &source->gate_config, &orientations));
-    if (!source->given && !update_engine(source, row, &orientations)) {
+    if (runs && !update_engine(source, row, &orientations)) {
         return false;
     }
+    if (source->config.own_orientations && oriented->reject == JCAL_REJECT_NONE) {
+        orientations.q1 = jcal_hinge_auto_orientation(&source->hinge, 1);
+        orientations.q2 = jcal_hinge_auto_orientation(&source->hinge, 2);
+    }
+    const bool usable = is_usable(jcal_orientation_gate_check(&source->gate, &source->gate_config, &orientations));
     if (usable && !angles_of(source, &orientations, out)) {
         return false;
     }

@@ -18,6 +18,7 @@ typedef struct {
     bool accept_best;              ///< Take the best estimate, whatever its status.
     float window_s;                ///< Memory of the heading; 0 for the default.
     float max_bound_rad;           ///< 0 for the default.
+    bool own_orientations;         ///< Rows come without: the hinge's own are taken.
     jcal_sign_hint_t sign_hint;
 } angle_source_config_t;
 
@@ -38,11 +39,12 @@ typedef struct {
     /* Private. */
     angle_source_config_t config;
     bool given; /* the calibration is; else the engines find it */
-    jcal_hinge_t hinge;
+    jcal_hinge_auto_t hinge;
     jcal_two_dof_t two_dof;
     jcal_orientation_gate_t gate;
     jcal_gate_config_t gate_config;
     angle_joint_t joint;
+    jcal_heading_t own_heading;
     jcal_joint_heading_t follower;
     bool has_follower;
     row_clock_t clock;
