@@ -73,6 +73,7 @@ static bool update_engine(angle_source_t *source, const recording_row_t *row,
         source->own_heading = result.heading;
         if (!source->given && is_accepted(source, hinge->has_axes)) {
             set_axes(source, hinge->axis1, hinge->axis2, 0.0f);
+            source->sign = (jcal_vec3_dot(source->joint.axis1, hinge->axis1) < 0.0f) ? -1.0f : 1.0f;
             source->joint.bound_rad = angle_bound(&result);
         }
         return true;
@@ -125,6 +126,10 @@ static bool compute(const angle_source_t *source, const jcal_orientation_pair_t 
                     jcal_joint_angles_t *angles)
 {
     const angle_joint_t *joint = &source->joint;
+    if (source->config.own_orientations && !source->given) { /* the engine keeps the zero where it is while the axes improve */
+        *angles = (jcal_joint_angles_t){.flexion_rad = source->sign * jcal_hinge_auto_flexion(&source->hinge)};
+        return true;
+    }
     jcal_joint_frames_t frames;
     const bool hinge = source->config.hinge;
     const jcal_status_t status = hinge ? jcal_frames_hinge(joint->axis1, joint->axis2, &frames)

@@ -45,6 +45,7 @@ typedef struct {
     jcal_gate_config_t gate_config;
     angle_joint_t joint;
     jcal_heading_t own_heading;
+    float sign; /* of the axes that are written here against those of the engine */
     jcal_joint_heading_t follower;
     bool has_follower;
     row_clock_t clock;
