@@ -513,6 +513,8 @@ def functional_rows(sums: functional.Sums, point: functional.Point) -> dict[str,
     assert bounds.max() < 0.5
     rows["bounds"] = np.r_[bounds, functional.flexion_bound(float(bounds.max()), point.size, described[1])]
     rows["described"] = np.array(described)
+    u, _, vt = np.linalg.svd(functional.cross_of(sums, point).turn)
+    rows["stiffest"] = np.r_[u[:, 0], vt[0]]
     other, evidence = functional.rival_of(sums, point)
     rows["rivals"] = np.r_[evidence, other.lack / sums.motion_s, other.j1, other.j2]
     return rows
@@ -531,6 +533,7 @@ FUNCTIONAL_TABLES = {
     "settled": "Headings and relative turns that are the best for the axes.",
     "bounds": "There: bounds of both axes and of the angle, rad.",
     "described": "There: share, bending, rad, stiffness.",
+    "stiffest": "There: the axes that lean least, by the singular vectors of X of turn.",
     "rivals": "There: evidence of turn, rate and lever, what the other pairing leaves, (m/s)^2, its axes.",
 }
 
