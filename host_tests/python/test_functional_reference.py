@@ -226,7 +226,7 @@ class SolveTest(unittest.TestCase):
         np.testing.assert_allclose([h.real for h in one.point.heading], [h.real for h in other.point.heading], atol=1e-4)
 
     def test_gaps_before_an_estimate_leave_nothing_behind(self):
-        """Pieces that are too short for a heading are forgotten, not merged with none."""
+        """Pieces that are too short for a heading are forgotten, not merged with any."""
         rec = simulate_hinge(EXACT)
         pairs = ticks_of(rec)
         pieces = [tuple(t._replace(epoch=min(1 + k // 8, 6)) for t in pair) for k, pair in enumerate(drifting(pairs, 0.0))]

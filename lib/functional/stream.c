@@ -120,7 +120,13 @@ static bool is_finite(const jcal_tick_t *tick)
 /// Features began anew: the headings of before are not those of now.
 static void cut(jcal_functional_t *self)
 {
-    if (self->sums.block[0].motion_s > 0.0f) {
+    const bool first = self->search.tried < JCAL_FUNCTIONAL_FIRST_TRIALS;
+    if (first && (self->sums.block[1].motion_s > 0.0f)) { /* nothing knows a heading yet that it could be merged with */
+        jcal_clear(&self->sums, sizeof self->sums);
+        jcal_clear(&self->search, sizeof self->search);
+        self->motion_s = 0.0f;
+        self->slice = (uint8_t)IDLE;
+    } else if (self->sums.block[0].motion_s > 0.0f) {
         self->merged = self->merged || (self->sums.block[1].motion_s > 0.0f);
         jcal_functional_sums_close(&self->sums, &self->point);
     }

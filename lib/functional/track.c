@@ -138,6 +138,9 @@ void jcal_functional_track_clear(jcal_functional_t *self)
     self->track.sum = (jcal_plane_t){0.0f, 0.0f};
     self->track.heading = self->point.heading[0];
     self->track.known = false;
+    for (unsigned f = 0u; f < JCAL_FAMILIES; ++f) {
+        self->track.recent[f] = 0.0f;
+    }
 }
 
 float jcal_functional_flexion(const jcal_functional_t *self, jcal_quat_t orientation1, jcal_quat_t orientation2)

@@ -550,8 +550,8 @@ class Joint:
         self.sums.close(self.point)
 
     def cut(self) -> None:
-        """The features began anew. Before there is an estimate no block has a heading to be merged with: everything is."""
-        if not self.has_estimate:
+        """The features began anew. Before there is an estimate no block has a heading that it could be merged with."""
+        if not self.has_estimate and self.sums.blocks[-1].motion_s > 0.0:
             self.sums, self.point, self.motion_s = Sums(), Point(), 0.0
         elif self.sums.blocks[0].motion_s > 0.0:
             self.close()
