@@ -46,9 +46,10 @@ typedef struct {
     float uncertainty1_rad;         ///< 95 % bound of axis1: of what other parts of the same motion would give.
     float uncertainty2_rad;         ///< The same for axis2.
     float flexion_uncertainty_rad;  ///< Error that the axes make in the angle, rms.
-    float bend_rad;                 ///< How far the joint bent so far, rms about its mean.
-    float sign_margin;              ///< What the other pairing leaves of the centre's motion over what this one leaves.
-    jcal_heading_t heading;         ///< L2 to L1, now.
+    float rate_share;   ///< Rates across the axis as a share of the rates, rms: what rigid segments would not leave.
+    float bend_rad;     ///< How far the joint bent so far, rms about its mean.
+    float sign_margin;  ///< What the other pairing leaves of the centre's motion over what this one leaves.
+    jcal_heading_t heading;                               ///< L2 to L1, now.
     jcal_vec3_t joint_to_sensor1_m;                       ///< In sensor frame 1.
     jcal_vec3_t joint_to_sensor2_m;                       ///< In sensor frame 2.
     float progress_axis1, progress_axis2, progress_sign;  ///< 0 to 1: how far each is on the way to its limit.
@@ -80,6 +81,9 @@ jcal_status_t jcal_functional_get(const jcal_functional_t *self, jcal_functional
 /// In [-pi, pi], from an arbitrary zero that is the same for all times; growing with turns of sensor 2 about axis2. Causal, without
 /// drift. NaN while there are no axes.
 float jcal_functional_flexion(const jcal_functional_t *self, jcal_quat_t orientation1, jcal_quat_t orientation2);
+
+/// The error that axes off by `bound_rad` make in the joint's angle, rad rms: F of docs/METHOD_PEOPLE.md; a right angle while unknown.
+float jcal_functional_flexion_error(const jcal_functional_t *self, float bound_rad);
 
 /// Forgets all data, keeps the config. Errors: JCAL_ERR_ARG.
 jcal_status_t jcal_functional_reset(jcal_functional_t *self);

@@ -7,6 +7,8 @@
 /// | you want | header | settings |
 /// |---|---|---|
 /// | the axis of a hinge | hinge.h; hinge_window.h is the published algorithm | hinge_config.h |
+/// | a hinge on a rig or on a person, and its angle | hinge_auto.h | hinge_config.h |
+/// | a person's joint, with sensors that serve several | functional.h, sensor.h; functional_pair.h for one joint | functional_config.h |
 /// | two axes and the heading offset | two_dof.h; two_dof_window.h is the published algorithm | two_dof_config.h |
 /// | the joint's centre | center.h; center_window.h is the published algorithm | center_config.h, kinematics.h |
 /// | hip and knee together | chain.h | chain_config.h |
@@ -27,9 +29,12 @@
 #include "jointcal/center_window.h"
 #include "jointcal/chain.h"
 #include "jointcal/config.h"
+#include "jointcal/functional.h"
+#include "jointcal/functional_pair.h"
 #include "jointcal/gate.h"
 #include "jointcal/head.h"
 #include "jointcal/hinge.h"
+#include "jointcal/hinge_auto.h"
 #include "jointcal/hinge_window.h"
 #include "jointcal/joint_angles.h"
 #include "jointcal/joint_heading.h"

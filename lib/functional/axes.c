@@ -125,10 +125,9 @@ void jcal_functional_step_axes(const jcal_functional_quadric_t *h, jcal_vec3_t *
     float hessian[JCAL_SYM_SIZE(4u)];
     float step[4];
     jcal_functional_tangent_hessian(h, *j1, *j2, true, hessian, step);
-    if (jcal_chol_factor(hessian, 4u, hessian, NULL) !=
-        JCAL_OK) { /* far from a minimum: downhill without the spheres' bend */
+    if (!jcal_chol_factor(hessian, 4u, hessian, NULL)) { /* far from a minimum: downhill without the spheres' bend */
         jcal_functional_tangent_hessian(h, *j1, *j2, false, hessian, step);
-        if (jcal_chol_factor(hessian, 4u, hessian, NULL) != JCAL_OK) {
+        if (!jcal_chol_factor(hessian, 4u, hessian, NULL)) {
             return;
         }
     }
@@ -194,7 +193,7 @@ bool jcal_functional_open_axes(const jcal_functional_quadric_t *h, unsigned whic
     for (size_t i = 0u; i < 6u; ++i) {
         m[jcal_sym_at(i, i)] += (SHIFT / 6.0f) * trace;
     }
-    if (jcal_chol_factor(m, 6u, m, NULL) != JCAL_OK) {
+    if (!jcal_chol_factor(m, 6u, m, NULL)) {
         return false;
     }
     float v[2][6];

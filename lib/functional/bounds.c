@@ -6,6 +6,7 @@
 #include "functional/axes.h"
 #include "functional/headings.h"
 #include "functional/model.h"
+#include "jointcal/functional.h"
 #include "jointcal/vec3.h"
 #include "math/chol.h"
 #include "math/plane.h"
@@ -70,7 +71,7 @@ static void take_out(const jcal_functional_sums_t *sums, const jcal_functional_p
     float nuisance[JCAL_SYM_SIZE(3u)];
     jcal_functional_bound_coupling(sums, point, b, q);
     jcal_functional_bound_nuisance(sums, point, b, nuisance);
-    if (jcal_chol_factor(nuisance, 3u, nuisance, NULL) != JCAL_OK) {
+    if (!jcal_chol_factor(nuisance, 3u, nuisance, NULL)) {
         jcal_sym_zero(hessian, 4u); /* the block is not at a minimum: nothing is known */
         return;
     }
@@ -99,7 +100,7 @@ static void finish(jcal_functional_t *self)
     verdict->bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
     verdict->bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
     float factor[JCAL_SYM_SIZE(4u)];
-    if (jcal_chol_factor(verdict->hessian, 4u, factor, NULL) == JCAL_OK) {
+    if (jcal_chol_factor(verdict->hessian, 4u, factor, NULL)) {
         float p[JCAL_SYM_SIZE(4u)];
         jcal_chol_inverse(factor, 4u, p);
         const float person = jcal_min(self->point.size[JCAL_FAMILY_RATE] / PERSON_RATE, 1.0f);
@@ -109,10 +110,16 @@ static void finish(jcal_functional_t *self)
         verdict->bound1_rad = jcal_min(floor_rad + (growth * widest(p[0], p[1], p[2])), JCAL_BOUND_UNKNOWN_RAD);
         verdict->bound2_rad = jcal_min(floor_rad + (growth * widest(p[5], p[8], p[9])), JCAL_BOUND_UNKNOWN_RAD);
     }
-    const float bound = jcal_max(verdict->bound1_rad, verdict->bound2_rad);
-    const float straight = 2.0f * self->point.size[JCAL_FAMILY_TURN];
-    const float bent = 0.5f * verdict->bend_rad * bound;
-    verdict->flexion_rad = bound * sqrtf(straight + (bent * bent));
+}
+
+float jcal_functional_flexion_error(const jcal_functional_t *self, float bound_rad)
+{
+    if ((self == NULL) || !self->search.has_estimate) {
+        return JCAL_BOUND_UNKNOWN_RAD;
+    }
+    const float leaning = 2.0f * self->point.size[JCAL_FAMILY_TURN];
+    const float bent = 0.5f * self->verdict.bend_rad * bound_rad;
+    return jcal_min(bound_rad * sqrtf(leaning + (bent * bent)), JCAL_BOUND_UNKNOWN_RAD);
 }
 
 void jcal_functional_bound(jcal_functional_t *self, unsigned part)

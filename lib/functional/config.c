@@ -5,7 +5,7 @@
 
 #include "joint/sign.h"
 #include "jointcal/vec3.h"
-#include "math/scalar.h"
+#include "math/limits.h"
 
 #include <stddef.h>
 
@@ -27,14 +27,14 @@ const char *jcal_functional_config_check(const jcal_functional_config_t *config)
     if (config == NULL) {
         return "config";
     }
-    if (!jcal_within(config->max_bound_rad, 0.001f, 0.5f)) {
-        return "max_bound_rad";
-    }
-    if (!jcal_within(config->max_flexion_rad, 0.001f, 0.5f)) {
-        return "max_flexion_rad";
-    }
-    if (!jcal_within(config->slices_per_s, 20.0f, 800.0f)) {
-        return "slices_per_s";
+    const jcal_limit_t limits[] = {
+        {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
+        {"max_flexion_rad", config->max_flexion_rad, 0.001f, 0.5f},
+        {"slices_per_s", config->slices_per_s, 20.0f, 800.0f},
+    };
+    const char *const wrong = jcal_limits_check(limits, sizeof limits / sizeof limits[0]);
+    if (wrong != NULL) {
+        return wrong;
     }
     const int hint = (int)config->sign_hint;
     if ((hint < (int)JCAL_SIGN_UNKNOWN) || (hint > (int)JCAL_SIGN_OPPOSITE)) {

@@ -119,7 +119,7 @@ static void step_turn(const jcal_functional_sums_t *sums, jcal_functional_point_
     float turn[3];
     jcal_functional_turn_hessian(grip.n, hessian);
     jcal_functional_turn_slope(grip.n, turn);
-    if (jcal_chol_factor(hessian, 3u, hessian, NULL) != JCAL_OK) {
+    if (!jcal_chol_factor(hessian, 3u, hessian, NULL)) {
         jcal_functional_about_z(point->heading[b], point->turn[b]); /* far from a minimum: what the heading says */
         return;
     }

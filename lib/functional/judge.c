@@ -7,6 +7,7 @@
 #include "functional/model.h"
 #include "joint/hysteresis.h"
 #include "joint/sign.h"
+#include "jointcal/functional.h"
 #include "jointcal/vec3.h"
 #include "math/eig.h"
 #include "math/scalar.h"
@@ -32,9 +33,14 @@
 #define MOTION_MIN_S 3.0f
 #define BEND_MIN_RAD (15.0f * DEGREE)
 #define SHARE_MIN 0.8f
-#define LACK_MAX 0.04f
+#define LACK_MAX 0.025f
+/// Bending, rms, times the root of what is along the axis over what is across it: two thighs that move alike bend about their line as
+/// little as 16 deg and as impurely as 85 %, which makes 38 deg, later 18 deg and 88 %, which makes 48; a knee that goes out of its plane does so in large motion.
+#define CLEAR_BEND_MIN_RAD (55.0f * DEGREE)
 /// Noise of the centre's velocity, squared, (m/s)^2; what the other pairing must leave beside this one, and evidence of that kind.
 #define SPEED_NOISE2 6e-4f
+/// The joint's centre must move at this speed, squared, both sides together, (m/s)^2: the sense of an axis hangs on that.
+#define SPEED_MIN2 0.03f
 #define OPPOSITE_MIN 4.0f
 #define OPPOSITE_LEAST2 3e-4f
 #define LEVER_EVIDENCE_MIN 3.0f
@@ -66,7 +72,7 @@ static float best_alignment(const float *g)
     }
     float values[3];
     float vectors[9];
-    if (jcal_eig_symmetric(square, 3u, values, vectors) != JCAL_OK) {
+    if (!jcal_eig_symmetric(square, 3u, values, vectors)) {
         return 0.0f;
     }
     const jcal_vec3_t x = {g[0], g[1], g[2]};
@@ -136,6 +142,9 @@ static bool is_paired(const jcal_functional_t *self, float slack)
         return false;
     }
     const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
+    if (!((slack * self->point.speed2) >= SPEED_MIN2)) {
+        return false;
+    }
     return ((slack * (verdict->opposite - SPEED_NOISE2)) >= (OPPOSITE_MIN * jcal_max(left, OPPOSITE_LEAST2))) &&
            ((slack * verdict->evidence[JCAL_FAMILY_LEVER]) >= LEVER_EVIDENCE_MIN);
 }
@@ -159,7 +168,9 @@ static jcal_reason_t find_reason(const jcal_functional_t *self, float slack)
     if (!((slack * verdict->bend_rad) >= BEND_MIN_RAD) || !((slack * verdict->stiffness) >= STIFFNESS_MIN)) {
         return JCAL_REASON_NO_BEND;
     }
-    if (!((slack * verdict->share) >= SHARE_MIN)) {
+    const float across = jcal_max(1.0f - verdict->share, 1e-3f);
+    const float clear = verdict->bend_rad * sqrtf(verdict->share / across);
+    if (!((slack * verdict->share) >= SHARE_MIN) || !((slack * clear) >= CLEAR_BEND_MIN_RAD)) {
         return JCAL_REASON_MORE_AXES;
     }
     if (!is_paired(self, slack)) {
@@ -192,6 +203,7 @@ void jcal_functional_judge(jcal_functional_t *self)
     const bool was_ready = verdict->status == (uint8_t)JCAL_READY;
     const float slack = was_ready ? JCAL_HYSTERESIS : 1.0f;
     const float bound = jcal_max(verdict->bound1_rad, verdict->bound2_rad);
+    verdict->flexion_rad = jcal_functional_flexion_error(self, bound);
     verdict->for_axes = bound <= (slack * self->cfg.max_bound_rad);
     verdict->for_flexion =
         (verdict->flexion_rad <= (slack * self->cfg.max_flexion_rad)) && (bound <= (slack * BOUND_FOR_FLEXION_RAD));

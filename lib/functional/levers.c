@@ -63,7 +63,7 @@ void jcal_functional_levers(const jcal_functional_sums_t *sums, const float *x, 
     for (size_t i = 0u; i < UNKNOWNS; ++i) {
         h[jcal_sym_at(i, i)] += ridge;
     }
-    if (jcal_chol_factor(h, UNKNOWNS, h, NULL) == JCAL_OK) {
+    if (jcal_chol_factor(h, UNKNOWNS, h, NULL)) {
         jcal_chol_solve(h, UNKNOWNS, r, r);
     } else {
         for (size_t i = 0u; i < UNKNOWNS; ++i) {

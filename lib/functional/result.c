@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// What the functional joint says.
+#include "joint/head.h"
 #include "joint/sign.h"
 #include "jointcal/functional.h"
 #include "jointcal/vec3.h"
@@ -8,16 +9,12 @@
 #include "math/scalar.h"
 
 #include <float.h>
+#include <math.h>
 
 /// Evidence at which the pairing is certain, as in functional/judge.c.
 #define EVIDENCE_ENOUGH 7.0f
 /// Largest margin that is told.
 #define MARGIN_MAX 1e6f
-
-static float progress(float value, float limit)
-{
-    return jcal_min(1.0f, limit / jcal_max(value, FLT_MIN));
-}
 
 static void say_axes(const jcal_functional_t *self, jcal_functional_result_t *out)
 {
@@ -29,12 +26,13 @@ static void say_axes(const jcal_functional_t *self, jcal_functional_result_t *ou
     out->joint_to_sensor1_m = point->r1;
     out->joint_to_sensor2_m = point->r2;
     out->bend_rad = verdict->bend_rad;
+    out->rate_share = sqrtf(point->size[JCAL_FAMILY_RATE]);
     const float left = point->lack / jcal_max(self->sums.motion_s, FLT_MIN);
     out->sign_margin = jcal_min(verdict->opposite / jcal_max(left, FLT_MIN), MARGIN_MAX);
     const float evidence = verdict->evidence[0] + verdict->evidence[1] + verdict->evidence[2];
     out->progress_sign = jcal_max(0.0f, jcal_min(1.0f, evidence / EVIDENCE_ENOUGH));
-    out->progress_axis1 = progress(verdict->bound1_rad, self->cfg.max_bound_rad);
-    out->progress_axis2 = progress(verdict->bound2_rad, self->cfg.max_bound_rad);
+    out->progress_axis1 = jcal_head_progress(verdict->bound1_rad, self->cfg.max_bound_rad);
+    out->progress_axis2 = jcal_head_progress(verdict->bound2_rad, self->cfg.max_bound_rad);
     out->heading.known = self->track.known;
     out->heading.heading_rad = self->track.known ? jcal_atan2(self->track.heading.im, self->track.heading.re) : 0.0f;
 }

@@ -5,9 +5,12 @@ Bones. The body's frame has x forward, y to the left, z up. The proximal segment
     R_1 = Rz(yaw) Rx(roll) Ry(pitch),    R_2 = R_1 Ry(flexion) Rx(abduction) Rz(rotation),
 
 so the joint's axis is y of both segments. Abduction and rotation are true motion out of the
-plane: partly a loop over the cycle, partly noise. Neither is a function of flexion, and
-neither tilts the axis (`loop_of`). The joint centre hangs on the hip (shoulder), which moves as the activity wants, with a jolt of the bones
-after each heel strike. For knees flexion is positive; for elbows read x as backward.
+plane: noise whose size goes with the cycle, without what follows the rate of flexion. So they
+are no function of flexion, and they tilt the axis in the mean by nothing. With `loop` a share of
+their power is the same in every cycle, in quadrature to flexion: an axis that is found then
+depends on how one looks for it, by 10 deg and more, as in people, and the true one is a
+convention. The joint centre hangs on the hip (shoulder), which moves as the activity wants, with
+a jolt of the bones after each heel strike. Flexion is positive; for elbows read x as backward.
 
 Skin. Sensor i is turned against its bone by rho_i(t): noise of OCTAVES_DEG from 0.3 Hz on, rms of
 the whole vector, times what the activity and the joint make of it; ringing after each heel
@@ -40,11 +43,10 @@ STRIKE_SHARPNESS = 12.0  # exp(s (cos phase - 1)): about 0.1 of a cycle
 IN_PHASE = (0.08, 0.15)  # share of the proximal segment's rotation that its sensor stays behind
 SKIN_LEVER_M = (0.02, 0.05)
 OUT_OF_PLANE_HZ = (0.15, 2.0)
-LOOP_SHARE = 0.2  # of the power of abduction and rotation, a loop over the cycle
+CYCLE_DEPTH = 0.8  # by how much their size goes with the cycle
 TURNING_HZ = (0.02, 0.15)
 SEGMENT_M = {"knee": 0.42, "ankle": 0.42, "elbow": 0.30}  # from the joint that carries it to this joint
 HARMONICS = 7
-LOOP_HARMONICS = 4  # of abduction and rotation
 PATTERN_POINTS = 256
 BLEND_S = 1.5
 
@@ -71,6 +73,7 @@ class Activity:
     out_of_plane_deg: float  # abduction and rotation together
     cycle_hz: float = 0.0  # strides or repetitions
     gait: bool = False
+    seated: bool = False  # the proximal segment lies still, the distal one swings by bend_deg
     bend_deg: tuple[float, float] = (0.0, 0.0)  # pitch and flexion between standing and the deepest pose
     free_deg: tuple[float, float, float] = (0.0, 0.0, 0.0)  # noise of roll, pitch, flexion
     free_hz: tuple[float, float] = (0.1, 1.2)
@@ -88,6 +91,7 @@ ACTIVITIES = {
                     ringing_deg=2.2, jolt_m_s2=3.5),
     "sit_to_stand": Activity(0.5, 3.0, 0.25, bend_deg=(-80.0, 98.0), free_deg=(1.0, 1.0, 1.0), turning_deg=2.0, drift_m_s2=0.1),
     "squat": Activity(0.7, 3.5, 0.4, bend_deg=(-85.0, 110.0), free_deg=(2.0, 1.5, 1.5), turning_deg=4.0, drift_m_s2=0.2),
+    "swing": Activity(0.2, 1.5, 0.7, seated=True, bend_deg=(-85.0, 40.0), free_deg=(0.2, 0.3, 3.0), turning_deg=0.3, drift_m_s2=0.03),
     "random": Activity(1.0, 4.0, free_deg=(10.0, 18.0, 22.0), turning_deg=35.0, drift_m_s2=1.5),
     "stand": Activity(0.1, 0.3, free_deg=(0.3, 0.4, 0.5), free_hz=(0.1, 1.0), turning_deg=0.5, drift_m_s2=0.05),
 }
@@ -112,6 +116,7 @@ class PersonSpec:
     seed: int = 0
     skin: float = 1.0  # times what belongs to the activity and the joint; 0: rigid mount
     out_of_plane: float = 1.0  # times what belongs to the activity; 0: an exact hinge
+    loop: float = 0.0  # share of its power that is the same in every cycle
     in_phase: float | None = None  # share of the proximal segment's rotation; None: random within IN_PHASE, times skin
     bending_deg: float | None = None  # range of flexion from the least to the largest; None: the activity's
     stiff: bool = False  # a splint: no relative motion of the bones
@@ -195,34 +200,19 @@ def bursts(phase: Jet) -> Jet:
     return (own + other * (1.0 / 3.0)) * (1.0 / rms)
 
 
+@dataclass(frozen=True)
+class Cycle:
+    """Of gait or of repetitions; where there is none the phase stands still."""
+
+    phase: Jet
+    loop: Jet  # in quadrature to flexion
+    loop_share: float  # of the power of abduction and rotation
+
+
 def rms_to(jet: Jet, rms: float) -> Jet:
     """The jet without its mean over time, scaled to an rms; zero if it does not move."""
     size = float(np.std(jet.value))
     return (jet - float(np.mean(jet.value))) * (rms / size if size > 0.0 else 0.0)
-
-
-def loop_of(flexion: np.ndarray) -> np.ndarray:
-    """Coefficients of a curve g over the gait cycle that tilts no axis of the flexion f, whichever way one looks for it.
-
-    Main axes of rates: f' g' and f'^2 g (distal segment), f' g' sin f and f' g' cos f (proximal one)
-    are 0 in the mean; of orientations: g sin f and g cos f are. Of all such curves the slowest.
-    """
-    phase = jets.line(Clock(PATTERN_POINTS, PATTERN_POINTS), 2.0 * np.pi)
-    f = jets.harmonics(flexion, phase)
-    s, c = np.sin(f.value), np.cos(f.value)
-    order = np.repeat(np.arange(1, LOOP_HARMONICS + 1), 2)
-    shape = np.zeros((len(order), LOOP_HARMONICS + 1), complex)
-    shape[np.arange(len(order)), order] = np.tile([1.0, 1.0j], LOOP_HARMONICS)
-    waves = [jets.harmonics(row, phase) for row in shape]
-    effects = np.array([[np.mean(f.rate * g.rate), np.mean(f.rate**2 * g.value), np.mean(f.rate * g.rate * s),
-                         np.mean(f.rate * g.rate * c), np.mean(g.value * s), np.mean(g.value * c)] for g in waves])
-    free = np.linalg.svd(effects.T)[2][effects.shape[1]:]  # rows: curves without any effect
-    return slowest(free, order) @ shape
-
-
-def slowest(curves: np.ndarray, order: np.ndarray) -> np.ndarray:
-    """Of the space that orthonormal rows (M, K) span, the row with the least rate; `order` (K,) are the harmonics."""
-    return np.linalg.eigh((curves * order**2) @ curves.T)[1][:, 0] @ curves
 
 
 def gait_angles(rng: np.random.Generator, joint: str, name: str, phase: Jet) -> tuple[dict[str, Jet], Jet]:
@@ -241,13 +231,16 @@ def gait_angles(rng: np.random.Generator, joint: str, name: str, phase: Jet) -> 
     else:
         angles = {"pitch": -hip, "flexion": knee}
         main = series["knee"]
-    return angles, jets.harmonics(loop_of(main), phase)
+    return angles, jets.harmonics(np.r_[0.0, 1j * main[1:]], phase)
 
 
 def pose_angles(joint: str, activity: Activity, phase: Jet) -> tuple[dict[str, Jet], Jet]:
-    """The same of repetitions between standing and a deep pose, feet on the ground; arms follow a little."""
-    depth = jets.logistic(jets.sin(phase) * 4.0 - 0.5)
+    """The same of repetitions between standing and a deep pose, feet on the ground (arms follow a little), or seated."""
     pitch, bend = np.radians(activity.bend_deg)
+    if activity.seated:
+        still = jets.constant(pitch, phase.value.shape[-1])
+        return {"pitch": still, "thigh": still, "flexion": jets.sin(phase) * bend + 0.8}, jets.cos(phase)
+    depth = jets.logistic(jets.sin(phase) * 4.0 - 0.5)
     # In quadrature: the loop runs ahead on the way down and behind on the way up.
     loop = jets.cos(phase)
     if joint == "elbow":
@@ -294,7 +287,7 @@ def one_activity(spec: PersonSpec, name: str, index: int, clock: Clock) -> Motio
         strikes = bursts(phase)
     elif activity.cycle_hz > 0.0:
         angles, loop = pose_angles(spec.joint, activity, phase)
-        base = hip_over_foot(spec.joint, angles, clock.size)
+        base = base if activity.seated else hip_over_foot(spec.joint, angles, clock.size)
     else:
         mean = np.radians(RANDOM_MEAN_DEG[spec.joint] if name == "random" else 5.0)
         angles, loop = {"pitch": zero, "thigh": zero, "flexion": zero + mean}, zero
@@ -302,7 +295,7 @@ def one_activity(spec: PersonSpec, name: str, index: int, clock: Clock) -> Motio
     free = wander((low_hz, high_hz), 1.7, 3) + wander((high_hz, 3.0 * high_hz), 0.2, 3)  # 1 deg each
     free_roll, free_pitch, free_flexion = (free[k] * activity.free_deg[k] for k in range(3))
     flexion = angles["flexion"] + free_flexion * (0.4 if spec.joint == "ankle" else 1.0)
-    sideways = out_of_plane(rng, clock, activity, loop, flexion)
+    sideways = out_of_plane(rng, clock, activity.out_of_plane_deg, Cycle(phase, loop, spec.loop), flexion)
     turning = wander(TURNING_HZ, activity.turning_deg)[0]
     drift = jets.noise(rng, clock, (0.3, 3.0), 3, order=2) * activity.drift_m_s2
     jolt = jets.noise(rng, clock, JOLT_HZ, 3, order=2) * strikes * activity.jolt_m_s2
@@ -312,19 +305,18 @@ def one_activity(spec: PersonSpec, name: str, index: int, clock: Clock) -> Motio
                   base + drift, jolt, level, strikes * np.radians(activity.ringing_deg))
 
 
-def out_of_plane(rng: np.random.Generator, clock: Clock, activity: Activity, loop: Jet, flexion: Jet) -> list[Jet]:
-    """Abduction and rotation: partly a loop over the cycle, partly noise without what follows flexion."""
-    share = np.sqrt(LOOP_SHARE) if np.std(loop.value) > 0.0 else 0.0
+def out_of_plane(rng: np.random.Generator, clock: Clock, size_deg: float, cycle: Cycle, flexion: Jet) -> list[Jet]:
+    """Abduction and rotation, `size_deg` rms together: a share of the power a loop over the cycle, the rest noise."""
+    share = np.sqrt(cycle.loop_share) if np.std(cycle.loop.value) > 0.0 else 0.0
+    split, signs = rng.uniform(0.35, 0.65), rng.choice([-1.0, 1.0], 2)
     found = []
-    split = rng.uniform(0.35, 0.65)
-    signs = rng.choice([-1.0, 1.0], 2)
     for k, part in enumerate((split, 1.0 - split)):
-        rms = np.radians(activity.out_of_plane_deg) * np.sqrt(part)
-        own = jets.noise(rng, clock, OUT_OF_PLANE_HZ, 1)[0]
+        rms = np.radians(size_deg) * np.sqrt(part)
+        own = jets.noise(rng, clock, OUT_OF_PLANE_HZ, 1)[0] * (jets.cos(cycle.phase + rng.uniform(0.0, 2.0 * np.pi)) * CYCLE_DEPTH + 1.0)
         # What goes with the rate of flexion would tilt the axis.
         along = float(np.mean(own.rate * flexion.rate) / max(np.mean(flexion.rate**2), 1e-12))
         own = rms_to(own - (flexion - float(np.mean(flexion.value))) * along, rms * np.sqrt(1.0 - share**2))
-        found.append(rms_to(loop, signs[k] * rms * share) + own)
+        found.append(rms_to(cycle.loop, signs[k] * rms * share) + own)
     return found
 
 

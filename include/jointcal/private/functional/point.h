@@ -5,6 +5,7 @@
 #define JCAL_PRIVATE_FUNCTIONAL_POINT_H
 
 #include "jointcal/private/functional/sums.h"
+#include "jointcal/private/plane.h"
 #include "jointcal/types.h"
 
 #ifdef __cplusplus

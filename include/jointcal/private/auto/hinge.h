@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// State of a hinge of either kind. Nothing here is for the user to touch.
+#ifndef JCAL_PRIVATE_AUTO_HINGE_H
+#define JCAL_PRIVATE_AUTO_HINGE_H
+
+#include "jointcal/private/functional/pair.h"
+#include "jointcal/private/hinge/stream.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Both models on the same readings. Caller-owned, plain, copyable at any time between calls; all members are private.
+typedef struct {
+    jcal_hinge_t rigid;
+    jcal_functional_pair_t functional;
+    int8_t kept_sign;  ///< Of axis 1, from the first `ready` on; lib/joint/sign.h.
+} jcal_hinge_auto_t;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* JCAL_PRIVATE_AUTO_HINGE_H */

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// A hinge of either kind: which of two models is believed. See hinge_auto.h.
+#include "jointcal/functional_pair.h"
+#include "jointcal/hinge_auto.h"
+#include "jointcal/vec3.h"
+#include "math/scalar.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/// Where the rates agree about an axis to this share of themselves, the segments are rigid, and the rigid model will find the axis
+/// better than the functional one, or has a reason not to.
+#define RIGID_RATE_SHARE 0.08f
+
+jcal_hinge_auto_config_t jcal_hinge_auto_config_default(void)
+{
+    const jcal_hinge_auto_config_t config = {jcal_hinge_config_default(),
+                                             jcal_functional_config_default().max_flexion_rad};
+    return config;
+}
+
+/// The functional model's part of the settings.
+static jcal_functional_config_t functional_config(const jcal_hinge_auto_config_t *config)
+{
+    jcal_functional_config_t out = jcal_functional_config_default();
+    out.max_bound_rad = config->hinge.max_bound_rad;
+    out.max_flexion_rad = config->max_flexion_rad;
+    out.sign_hint = config->hinge.sign_hint;
+    out.axis1_toward = config->hinge.axis1_toward;
+    return out;
+}
+
+const char *jcal_hinge_auto_config_check(const jcal_hinge_auto_config_t *config)
+{
+    if (config == NULL) {
+        return "config";
+    }
+    const char *const wrong = jcal_hinge_config_check(&config->hinge);
+    if (wrong != NULL) {
+        return wrong;
+    }
+    const jcal_functional_config_t functional = functional_config(config);
+    return jcal_functional_config_check(&functional);
+}
+
+jcal_status_t jcal_hinge_auto_init(jcal_hinge_auto_t *self, const jcal_hinge_auto_config_t *config)
+{
+    if ((self == NULL) || (config == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    if (jcal_hinge_auto_config_check(config) != NULL) {
+        return JCAL_ERR_CONFIG;
+    }
+    const jcal_functional_config_t functional = functional_config(config);
+    const jcal_status_t status = jcal_hinge_init(&self->rigid, &config->hinge);
+    return (status == JCAL_OK) ? jcal_functional_pair_init(&self->functional, &functional, &config->hinge.gate)
+                               : status;
+}
+
+jcal_status_t jcal_hinge_auto_update(jcal_hinge_auto_t *self, const jcal_pair_t *pair)
+{
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    jcal_hinge_result_t before;
+    jcal_hinge_result_t after;
+    (void)jcal_hinge_get(&self->rigid, &before);
+    const jcal_status_t status = jcal_hinge_update(&self->rigid, pair);
+    (void)jcal_hinge_get(&self->rigid, &after);
+    (void)jcal_functional_pair_update(&self->functional, pair);
+    if ((after.head.status == JCAL_MOVED) && (before.head.status != JCAL_MOVED)) {
+        (void)jcal_functional_reset(&self->functional.joint); /* what it learnt is of the sensors as they sat before */
+    }
+    return status;
+}
+
+/// True if the rates say that the segments are not rigid, so that the functional model is the one to ask.
+static bool is_person(const jcal_functional_result_t *functional)
+{
+    return functional->has_axes && (functional->rate_share > RIGID_RATE_SHARE);
+}
+
+/// The functional model's word in the form of a hinge's.
+static void say_functional(const jcal_functional_result_t *from, jcal_hinge_result_t *out)
+{
+    out->head.status = from->head.status;
+    out->head.weak = from->head.weak;
+    out->head.hint = from->head.hint;
+    out->head.reason = from->head.reason;
+    out->has_axes = from->has_axes;
+    out->axis1 = from->axis1;
+    out->axis2 = from->axis2;
+    out->uncertainty1_rad = from->uncertainty1_rad;
+    out->uncertainty2_rad = from->uncertainty2_rad;
+    out->sign_margin = from->sign_margin;
+    out->progress_axis1 = from->progress_axis1;
+    out->progress_axis2 = from->progress_axis2;
+    out->progress_sign = from->progress_sign;
+}
+
+static jcal_ready_for_t purpose(const jcal_hinge_auto_result_t *result, const jcal_functional_result_t *functional)
+{
+    if (result->hinge.head.status != JCAL_READY) {
+        return JCAL_FOR_NOTHING;
+    }
+    return ((result->model == JCAL_MODEL_RIGID) || functional->for_axes) ? JCAL_FOR_AXES : JCAL_FOR_FLEXION;
+}
+
+jcal_status_t jcal_hinge_auto_get(const jcal_hinge_auto_t *self, jcal_hinge_auto_result_t *out)
+{
+    if ((self == NULL) || (out == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    jcal_functional_result_t functional;
+    *out = (jcal_hinge_auto_result_t){0};
+    (void)jcal_hinge_get(&self->rigid, &out->hinge);
+    (void)jcal_functional_pair_get(&self->functional, &functional);
+    const jcal_head_t *const rigid = &out->hinge.head;
+    const bool unfit = (rigid->reason == JCAL_REASON_DOES_NOT_FIT) && (rigid->status != JCAL_MOVED);
+    const bool ready = (rigid->status != JCAL_READY) && (functional.head.status == JCAL_READY);
+    if ((ready && is_person(&functional)) || (unfit && functional.has_axes && !ready)) {
+        out->model = JCAL_MODEL_FUNCTIONAL;
+        say_functional(&functional, &out->hinge);
+    }
+    out->ready_for = purpose(out, &functional);
+    out->bend_rad = functional.bend_rad;
+    out->flexion_uncertainty_rad = jcal_functional_flexion_error(
+        &self->functional.joint, jcal_max(out->hinge.uncertainty1_rad, out->hinge.uncertainty2_rad));
+    out->heading = functional.heading;
+    out->has_levers = functional.has_axes;
+    out->joint_to_sensor1_m = functional.joint_to_sensor1_m;
+    out->joint_to_sensor2_m = functional.joint_to_sensor2_m;
+    return JCAL_OK;
+}
+
+float jcal_hinge_auto_flexion(const jcal_hinge_auto_t *self)
+{
+    if (self == NULL) {
+        return NAN;
+    }
+    jcal_hinge_auto_result_t result;
+    jcal_functional_result_t functional;
+    (void)jcal_hinge_auto_get(self, &result);
+    (void)jcal_functional_pair_get(&self->functional, &functional);
+    const float sign = (jcal_vec3_dot(result.hinge.axis1, functional.axis1) < 0.0f) ? -1.0f : 1.0f;
+    return sign * jcal_functional_pair_flexion(&self->functional);
+}
+
+jcal_quat_t jcal_hinge_auto_orientation(const jcal_hinge_auto_t *self, unsigned which)
+{
+    if (self == NULL) {
+        return jcal_sensor_orientation(NULL);
+    }
+    return jcal_sensor_orientation((which == 2u) ? &self->functional.sensor2 : &self->functional.sensor1);
+}
+
+const char *jcal_model_string(jcal_model_t model)
+{
+    return (model == JCAL_MODEL_FUNCTIONAL) ? "functional" : "rigid";
+}
+
+const char *jcal_ready_for_string(jcal_ready_for_t ready_for)
+{
+    switch (ready_for) {
+    case JCAL_FOR_AXES:
+        return "axes";
+    case JCAL_FOR_FLEXION:
+        return "flexion";
+    case JCAL_FOR_NOTHING:
+    default:
+        return NULL;
+    }
+}
