@@ -259,6 +259,9 @@ static void work(jcal_functional_t *self)
     } else {
         jcal_functional_judge(self);
         if (self->verdict.status == (uint8_t)JCAL_READY) {
+            if (self->kept_sign[0] == 0) { /* slips are looked for from here on, with what this estimate leaves */
+                jcal_functional_track_trust(&self->track);
+            }
             jcal_sign_keep(&self->kept_sign[0], self->point.j1, self->cfg.axis1_toward);
         }
     }

@@ -70,10 +70,10 @@ UNKNOWN = np.pi / 2.0
 
 # Gates.
 AGREED_MIN = 3
-GRAVITY_OFF_MAX, MOTION_MIN_S, LEANING_MAX, LACK_MAX = 0.6, 3.0, 20.0 * DEG, 0.04
-BEND_MIN, STIFFNESS_MIN, SHARE_MIN = 15.0 * DEG, 0.05, 0.8
+GRAVITY_OFF_MAX, MOTION_MIN_S, LEANING_MAX, LACK_MAX = 0.6, 3.0, 20.0 * DEG, 0.025
+BEND_MIN, CLEAR_BEND_MIN, STIFFNESS_MIN, SHARE_MIN = 15.0 * DEG, 55.0 * DEG, 0.05, 0.8
 EVIDENCE_MIN, LEVER_EVIDENCE_MIN, OPPOSITE_MIN = 7.0, 3.0, 4.0
-SPEED_NOISE2, OPPOSITE_LEAST2 = 6e-4, 3e-4
+SPEED_NOISE2, SPEED_MIN2, OPPOSITE_LEAST2 = 6e-4, 0.03, 3e-4
 BOUND_FOR_FLEXION = 10.0 * DEG
 
 
@@ -500,13 +500,14 @@ def reason_of(joint: Joint) -> str:
     """The first thing that keeps the estimate from being ready, the worst first; "" if there is none. Without hysteresis."""
     sums, point, v = joint.sums, joint.point, joint.verdict
     left = point.lack / sums.motion_s
+    clear = v.bend * np.sqrt(v.share / max(1.0 - v.share, 1e-3))
     flexion = v.flexion <= joint.max_flexion and v.bounds.max() <= BOUND_FOR_FLEXION
     gates = [("gravity-off", joint.gravity_off <= GRAVITY_OFF_MAX), ("no-motion", sums.motion_s >= MOTION_MIN_S),
              ("does-not-fit", 2.0 * point.size[TURN] <= LEANING_MAX**2),
              ("not-one-joint", left - SPEED_NOISE2 <= LACK_MAX * point.speed2),
-             ("no-bend", v.bend >= BEND_MIN and v.stiffness >= STIFFNESS_MIN), ("more-axes", v.share >= SHARE_MIN),
+             ("no-bend", v.bend >= BEND_MIN and v.stiffness >= STIFFNESS_MIN), ("more-axes", v.share >= SHARE_MIN and clear >= CLEAR_BEND_MIN),
              ("sign-open", v.evidence.sum() >= EVIDENCE_MIN and v.evidence[LEVER] >= LEVER_EVIDENCE_MIN
-              and v.opposite - SPEED_NOISE2 >= OPPOSITE_MIN * max(left, OPPOSITE_LEAST2)),
+              and point.speed2 >= SPEED_MIN2 and v.opposite - SPEED_NOISE2 >= OPPOSITE_MIN * max(left, OPPOSITE_LEAST2)),
              ("uncertain", flexion or v.bounds.max() <= joint.max_bound)]
     return next((name for name, passed in gates if not passed), "")
 
