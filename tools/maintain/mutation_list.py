@@ -52,8 +52,8 @@ GYR_BIAS = "lib/imu/bias.c"
 FEATURES = "lib/imu/features.c"
 STAGE = "lib/imu/sensor.c"
 LOWPASS = "lib/imu/lowpass.h"
-TURN = "lib/imu/turn.h"
-DECAY = "lib/math/decay.h"
+TURN = "lib/imu/turn.c"
+DECAY = "lib/math/decay.c"
 
 MUTATIONS = [
     (MODEL, "out[3] = w.x * w.y;", "out[3] = w.x * w.z;", "product xy"),

@@ -192,7 +192,7 @@ def table_of_vqf(report: Report, rows: list[Beside]) -> None:
     report.text("The orientation beside VQF (its defaults): angle between the directions taken for up after 5 s, deg (median, 95 %, most), and "
                 "how fast the headings part, deg/min. VQF turns by the rate of a sample since the sample before; the stage by the mean of both "
                 "rates. `same rates`: VQF is given those means. Where samples are not evenly spaced both get interpolated ones.")
-    report.table(["recording", "sensor", "as it is: median", "95 %", "most", "heading", "same rates: median", "95 %", "most", "heading"],
+    report.table(["recording", "sensor", *(f"{which}: {what}" for which in ("as it is", "same rates") for what in ("median", "95 %", "most", "heading"))],
                  [[r.name, r.sensor, *(number(v) for v in r.as_is), *(number(v) for v in r.same_rates)] for r in rows])
 
 
@@ -219,7 +219,7 @@ def table_of_cold(report: Report, rows: list[Beside]) -> None:
         if len(cold):
             out += [[label, len(cold), what, *(number(f(cold[:, k])) for k in range(len(COLD_S)))]
                     for what, f in (("median", median), ("95 %", lambda v: quantile(v, 0.95)))]
-    report.table(["recordings", "starts", "", *(f"{s:g} s" for s in COLD_S)], out)
+    report.table(["recordings", "starts", "share", *(f"{s:g} s" for s in COLD_S)], out)
 
 
 def measure(settings: Settings, report: Report) -> None:
