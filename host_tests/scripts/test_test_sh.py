@@ -23,6 +23,7 @@ for broken in $FAILS; do
 done
 """
 CTEST = STUB + """
+echo "$*" >> "$TREE/ctest.log"
 [[ $* == *"--preset host "* && $FAILS == *ctest:host* ]] && fail=yes
 if [[ -n $fail ]]; then
     printf ' 4/10 Test  #4: test_d .....***Failed    0.1 sec\\n\\n70%% tests passed, 3 tests failed out of 10\\n'
@@ -189,6 +190,13 @@ class TestScript(unittest.TestCase):
         self.assertIn("usage: tools/test.sh", self.output)
         self.assertEqual(self.run_script("--list"), 0)
         self.assertIn("clang-tidy", self.output)
+
+    def test_long_motions_run_on_one_microcontroller(self):
+        self.assertEqual(self.run_script("--only", "host", "m4f", "m3", "m7", "m33", "m0"), 0, self.output)
+        calls = [line.split() for line in (self.tree / "ctest.log").read_text().splitlines()]
+        without = [call[call.index("--preset") + 1] for call in calls if "-LE" in call]
+        self.assertEqual(without, ["m3", "m7", "m33"])
+        self.assertEqual(len(calls), 6)
 
     def test_ci_runs_all_and_is_strict(self):
         self.assertEqual(self.run_script(script=".ci/run"), 0, self.output)

@@ -60,7 +60,7 @@ typedef struct {
 /// Threads:  no state.
 jcal_center_config_t jcal_center_config_default(void);
 
-/// Name of the first field that is out of its range, or null if the config is valid.
+/// Name of the first field that is out of its range, or null if the config is valid; "config" if that is null itself.
 /// Threads:  no state.
 const char *jcal_center_config_check(const jcal_center_config_t *config);
 
@@ -68,7 +68,7 @@ const char *jcal_center_config_check(const jcal_center_config_t *config);
 /// Threads:  no state.
 jcal_center_window_config_t jcal_center_window_config_default(void);
 
-/// Name of the first field that is out of its range, or null if the config is valid.
+/// Name of the first field that is out of its range, or null if the config is valid; "config" if that is null itself.
 /// Threads:  no state.
 const char *jcal_center_window_config_check(const jcal_center_window_config_t *config);
 

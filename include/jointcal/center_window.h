@@ -28,11 +28,12 @@ extern "C" {
 /// Bytes of storage for n_max; usable in array sizes: 96 KB for 500.
 #define JCAL_CENTER_WINDOW_STORAGE_BYTES(n_max) ((size_t)(n_max) * sizeof(jcal_kinematic_t))
 
-/// Bytes of storage that a config needs: JCAL_CENTER_WINDOW_STORAGE_BYTES of its field.
+/// Bytes of storage that a config needs: JCAL_CENTER_WINDOW_STORAGE_BYTES of its field; 0 for null.
 /// Threads:  no state.
 size_t jcal_center_window_storage_bytes(const jcal_center_window_config_t *config);
 
 /// Prepares an estimator; whatever `self` and the storage held before is lost.
+/// A struct that this never prepared, all zero: push, step, reset and attach return JCAL_ERR_ARG, get knows nothing.
 ///
 /// Inputs:   storage, aligned for uint64_t, of at least jcal_center_window_storage_bytes(config); it belongs to `self` as long as
 ///           `self` is used.

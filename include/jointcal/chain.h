@@ -54,6 +54,7 @@ typedef struct {
 } jcal_chain_result_t;
 
 /// Prepares an estimator; whatever `self` held before is lost.
+/// A struct that this never prepared, all zero: push and step return JCAL_ERR_ARG, get knows nothing, reset returns JCAL_ERR_CONFIG.
 ///
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG (jcal_chain_config_check says which field); self untouched.
 /// Threads:  nothing else runs on this estimator meanwhile, push neither.

@@ -29,7 +29,7 @@ typedef struct {
 /// Threads:  no state.
 jcal_chain_config_t jcal_chain_config_default(void);
 
-/// Name of the first field that is out of its range, or null if the config is valid.
+/// Name of the first field that is out of its range, or null if the config is valid; "config" if that is null itself.
 /// Threads:  no state.
 const char *jcal_chain_config_check(const jcal_chain_config_t *config);
 

@@ -31,7 +31,7 @@ typedef struct {
 /// Threads:  no state.
 jcal_gate_config_t jcal_gate_config_default(void);
 
-/// Name of the first field that is out of its range, or null if the config is valid.
+/// Name of the first field that is out of its range, or null if the config is valid; "config" if that is null itself.
 /// Threads:  no state.
 const char *jcal_gate_config_check(const jcal_gate_config_t *config);
 
@@ -45,9 +45,6 @@ void jcal_gate_init(jcal_gate_t *self);
 /// Cost:     constant, about 150 floating-point operations; no square root but two.
 /// Threads:  one caller at a time; inside push it is push.
 jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *config, const jcal_pair_t *pair);
-
-/// Counts a sample that something else than its readings excludes, as if this gate had rejected it.
-void jcal_gate_refuse(jcal_gate_t *self, jcal_reject_t cause);
 
 /// What is wrong with the stream as a whole: JCAL_REASON_NONE, _RATE_TOO_LOW, _WRONG_UNITS_GYR, _WRONG_UNITS_ACC or
 /// _BAD_SAMPLES.

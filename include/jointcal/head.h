@@ -13,6 +13,9 @@
 extern "C" {
 #endif
 
+/// The bound of an axis or a heading of which nothing is known, rad: a right angle, the largest angle between two lines.
+#define JCAL_BOUND_UNKNOWN_RAD 1.57079633f
+
 /// The bound of a place of which nothing is known, m.
 #define JCAL_BOUND_UNKNOWN_M 10.0f
 

@@ -11,9 +11,6 @@
 extern "C" {
 #endif
 
-/// The bound of something of which nothing is known: a right angle, the largest angle between two lines, rad.
-#define JCAL_BOUND_UNKNOWN_RAD 1.57079633f
-
 /// What the user knows about the sign pairing beforehand.
 typedef enum {
     JCAL_SIGN_UNKNOWN = 0,  ///< Find it out (default).
@@ -82,7 +79,7 @@ typedef struct {
 /// Threads:  no state.
 jcal_hinge_config_t jcal_hinge_config_default(void);
 
-/// Name of the first field that is out of its range, or null if the config is valid.
+/// Name of the first field that is out of its range, or null if the config is valid; "config" if that is null itself.
 /// Threads:  no state.
 const char *jcal_hinge_config_check(const jcal_hinge_config_t *config);
 
@@ -90,7 +87,7 @@ const char *jcal_hinge_config_check(const jcal_hinge_config_t *config);
 /// Threads:  no state.
 jcal_hinge_window_config_t jcal_hinge_window_config_default(void);
 
-/// Name of the first field that is out of its range, or null if the config is valid.
+/// Name of the first field that is out of its range, or null if the config is valid; "config" if that is null itself.
 /// Threads:  no state.
 const char *jcal_hinge_window_config_check(const jcal_hinge_window_config_t *config);
 

@@ -37,11 +37,12 @@ extern "C" {
     (((2u * (size_t)(half_window) + 1u) * sizeof(jcal_score_slot_t)) +                                                 \
      ((2u * (size_t)(n_max) + 1u) * sizeof(jcal_row_t)))
 
-/// Bytes of storage that a config needs: JCAL_HINGE_WINDOW_STORAGE_BYTES of its fields.
+/// Bytes of storage that a config needs: JCAL_HINGE_WINDOW_STORAGE_BYTES of its fields; 0 for null.
 /// Threads:  no state.
 size_t jcal_hinge_window_storage_bytes(const jcal_hinge_window_config_t *config);
 
 /// Prepares an estimator; whatever `self` and the storage held before is lost.
+/// A struct that this never prepared, all zero: push rejects every sample, step returns JCAL_ERR_ARG, get knows nothing.
 ///
 /// Inputs:   storage, aligned for float, of at least jcal_hinge_window_storage_bytes(config); it belongs to `self`
 ///           as long as `self` is used.

@@ -22,8 +22,7 @@ typedef enum {
     JCAL_ERR_ARG = -1,      ///< A pointer is null or an argument is outside its documented range.
     JCAL_ERR_CONFIG = -2,   ///< A field of the config is not finite or outside its documented range.
     JCAL_ERR_STORAGE = -3,  ///< The storage handed over is too small or not aligned.
-    JCAL_ERR_FULL = -4,     ///< push: the inbox is full because step is not called often enough.
-    JCAL_ERR_SINGULAR = -5  ///< A matrix has no usable inverse (or holds a NaN).
+    JCAL_ERR_FULL = -4      ///< push: the inbox is full because step is not called often enough.
 } jcal_status_t;
 
 /// What is known about the joint.

@@ -38,7 +38,7 @@ typedef struct {
     jcal_vec3_t axis2;         ///< Unit axis j2 in sensor frame 2, its sign likewise and separately.
     float heading_offset_rad;  ///< delta, in (-pi, pi]: turns earth frame 2 to earth frame 1 about z.
     float carrying_angle_rad;  ///< beta0: j1 . j2 = sin(beta0) in a common frame.
-    /// 95 % bound of the angle between axis1 and the truth; a right angle if unknown, as while other axes explain the data as well.
+    /// 95 % bound of the angle between axis1 and the truth; JCAL_BOUND_UNKNOWN_RAD if unknown, as while other axes explain the data as well.
     float uncertainty1_rad;
     float uncertainty2_rad;         ///< The same for axis2.
     float uncertainty_heading_rad;  ///< 95 % bound of the error of the heading offset at the time t_us.
@@ -48,6 +48,7 @@ typedef struct {
 } jcal_two_dof_result_t;
 
 /// Prepares an estimator; whatever `self` held before is lost.
+/// A struct that this never prepared, all zero: push and step return JCAL_ERR_ARG, get knows nothing, reset returns JCAL_ERR_CONFIG.
 ///
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG (jcal_two_dof_config_check says which field); self untouched.
 /// Threads:  nothing else runs on this estimator meanwhile, push neither.

@@ -54,7 +54,7 @@ typedef struct {
 /// Threads:  no state.
 jcal_two_dof_config_t jcal_two_dof_config_default(void);
 
-/// Name of the first field that is out of its range, or null if the config is valid.
+/// Name of the first field that is out of its range, or null if the config is valid; "config" if that is null itself.
 /// Threads:  no state.
 const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config);
 
@@ -62,7 +62,7 @@ const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config);
 /// Threads:  no state.
 jcal_two_dof_window_config_t jcal_two_dof_window_config_default(void);
 
-/// Name of the first field that is out of its range, or null if the config is valid.
+/// Name of the first field that is out of its range, or null if the config is valid; "config" if that is null itself.
 /// Threads:  no state.
 const char *jcal_two_dof_window_config_check(const jcal_two_dof_window_config_t *config);
 

@@ -28,11 +28,12 @@ extern "C" {
 /// Bytes of storage for n_max; usable in array sizes: 14.4 KB for 200.
 #define JCAL_TWO_DOF_WINDOW_STORAGE_BYTES(n_max) ((size_t)(n_max) * sizeof(jcal_two_dof_row_t))
 
-/// Bytes of storage that a config needs: JCAL_TWO_DOF_WINDOW_STORAGE_BYTES of its n_max.
+/// Bytes of storage that a config needs: JCAL_TWO_DOF_WINDOW_STORAGE_BYTES of its n_max; 0 for null.
 /// Threads:  no state.
 size_t jcal_two_dof_window_storage_bytes(const jcal_two_dof_window_config_t *config);
 
 /// Prepares an estimator; whatever `self` and the storage held before is lost.
+/// A struct that this never prepared, all zero: push, step, reset and attach return JCAL_ERR_ARG, get knows nothing.
 ///
 /// Inputs:   storage, aligned for uint64_t, of at least jcal_two_dof_window_storage_bytes(config); it belongs to `self` as long as
 ///           `self` is used.

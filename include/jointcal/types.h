@@ -42,11 +42,6 @@ typedef struct {
     float w, x, y, z;
 } jcal_quat_t;
 
-/// A complex number: a vector in a plane, or a turn of it.
-typedef struct {
-    float re, im;
-} jcal_plane_t;
-
 /// One reading of one IMU in its own sensor frame.
 typedef struct {
     jcal_vec3_t gyr_rad_s;  ///< Angular rate.

@@ -4,7 +4,8 @@
 #include "jointcal/center_config.h"
 
 #include "jointcal/vec3.h"
-#include "math/scalar.h"
+#include "math/limits.h"
+#include "math/sphere.h"
 
 #include <stddef.h>
 
@@ -25,24 +26,12 @@ jcal_center_config_t jcal_center_config_default(void)
     return config;
 }
 
-typedef struct {
-    const char *name;
-    float value, low, high;
-} field_t;
-
-/// True for a unit vector or zero.
-static bool is_axis(jcal_vec3_t v)
-{
-    const float square = jcal_vec3_dot(v, v);
-    return (square == 0.0f) || jcal_within(square, 0.99f, 1.01f);
-}
-
 const char *jcal_center_config_check(const jcal_center_config_t *config)
 {
     if (config == NULL) {
         return "config";
     }
-    const field_t fields[] = {
+    const jcal_limit_t fields[] = {
         {"max_bound_m", config->max_bound_m, 0.001f, 0.1f},
         {"mismatch_m", config->mismatch_m, 0.0f, 0.05f},
         {"acc_noise_m_s2", config->acc_noise_m_s2, 1e-3f, 10.0f},
@@ -52,10 +41,9 @@ const char *jcal_center_config_check(const jcal_center_config_t *config)
         {"smoothing_s", config->kinematics.smoothing_s, 0.0f, 2.0f},
         {"memory_s", config->memory_s, 10.0f, 3600.0f},
     };
-    for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
-        if (!jcal_within(fields[i].value, fields[i].low, fields[i].high)) {
-            return fields[i].name;
-        }
+    const char *const out = jcal_limits_check(fields, sizeof fields / sizeof fields[0]);
+    if (out != NULL) {
+        return out;
     }
     const int method = (int)config->method;
     if ((method < (int)JCAL_CENTER_SS) || (method > (int)JCAL_CENTER_LS)) {
@@ -65,11 +53,12 @@ const char *jcal_center_config_check(const jcal_center_config_t *config)
     if ((derivative < (int)JCAL_DERIVATIVE_FIVE_POINT) || (derivative > (int)JCAL_DERIVATIVE_SYMMETRIC)) {
         return "derivative";
     }
-    if (!is_axis(config->hinge_axis1)) {
+    if (!jcal_sphere_is_axis_or_none(config->hinge_axis1)) {
         return "hinge_axis1";
     }
-    if (!is_axis(config->hinge_axis2) || ((jcal_vec3_dot(config->hinge_axis1, config->hinge_axis1) > 0.0f) !=
-                                          (jcal_vec3_dot(config->hinge_axis2, config->hinge_axis2) > 0.0f))) {
+    if (!jcal_sphere_is_axis_or_none(config->hinge_axis2) ||
+        ((jcal_vec3_dot(config->hinge_axis1, config->hinge_axis1) > 0.0f) !=
+         (jcal_vec3_dot(config->hinge_axis2, config->hinge_axis2) > 0.0f))) {
         return "hinge_axis2";
     }
     return jcal_gate_config_check(&config->gate);

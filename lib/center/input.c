@@ -4,6 +4,7 @@
 #include "center/input.h"
 
 #include "math/clear.h"
+#include "sample/gate.h"
 #include "sample/ring.h"
 #include "sample/unit.h"
 

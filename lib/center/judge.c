@@ -86,7 +86,7 @@ static void scale(const jcal_center_config_t *cfg, jcal_center_work_t *self)
 static bool factor(jcal_center_inverse_t *inverse)
 {
     (void)memcpy(inverse->scale, inverse->of.next.scale, sizeof inverse->scale);
-    inverse->is_factored = jcal_chol_factor(inverse->of.next.matrix, N, inverse->factor, NULL) == JCAL_OK;
+    inverse->is_factored = jcal_chol_factor(inverse->of.next.matrix, N, inverse->factor, NULL);
     return inverse->is_factored;
 }
 
@@ -256,7 +256,7 @@ static jcal_center_bounds_t bounds_of(const jcal_center_config_t *cfg, const jca
     float values[3];
     float vectors[9];
     jcal_center_bounds_t b = unknown_bounds();
-    if (jcal_eig_symmetric(larger, 3u, values, vectors) != JCAL_OK) {
+    if (!jcal_eig_symmetric(larger, 3u, values, vectors)) {
         return b;
     }
     b.direction = jcal_vec3(vectors[0], vectors[1], vectors[2]);

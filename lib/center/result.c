@@ -6,15 +6,8 @@
 #include "center/place.h"
 #include "joint/head.h"
 #include "math/angle.h"
-#include "math/scalar.h"
 
-#include <float.h>
 #include <stddef.h>
-
-static float progress(float bound_m, float max_bound_m)
-{
-    return jcal_min(1.0f, max_bound_m / jcal_max(bound_m, FLT_MIN));
-}
 
 static void tell_point(const jcal_center_point_t *point, const jcal_center_place_t *told, jcal_center_result_t *out)
 {
@@ -68,8 +61,8 @@ void jcal_center_report(const jcal_center_config_t *cfg, const jcal_center_work_
     } else {
         tell_nothing(out);
     }
-    out->progress1 = progress(out->uncertainty1_m, cfg->max_bound_m);
-    out->progress2 = progress(out->uncertainty2_m, cfg->max_bound_m);
+    out->progress1 = jcal_head_progress(out->uncertainty1_m, cfg->max_bound_m);
+    out->progress2 = jcal_head_progress(out->uncertainty2_m, cfg->max_bound_m);
     const jcal_weak_t weakest = (out->uncertainty2_m > out->uncertainty1_m) ? JCAL_WEAK_CENTER2 : JCAL_WEAK_CENTER1;
     jcal_head_complain(&out->head, jcal_gate_complaint(&input->gate), weakest);
     jcal_head_count(&out->head, input->gate.samples, input->gate.rejected_by);

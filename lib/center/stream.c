@@ -175,7 +175,7 @@ static bool is_known(const jcal_center_t *self, float *matrix, float cost)
         return true;
     }
     float inverse[JCAL_SYM_SIZE(JCAL_CENTER_PLACE_UNKNOWNS)];
-    if (jcal_chol_factor(matrix, JCAL_CENTER_PLACE_UNKNOWNS, matrix, NULL) != JCAL_OK) {
+    if (!jcal_chol_factor(matrix, JCAL_CENTER_PLACE_UNKNOWNS, matrix, NULL)) {
         return false;
     }
     jcal_chol_inverse(matrix, JCAL_CENTER_PLACE_UNKNOWNS, inverse);
@@ -200,7 +200,7 @@ static void step_start(jcal_center_t *self)
         float d[JCAL_CENTER_PLACE_UNKNOWNS];
         const jcal_gn_model_t model = {JCAL_CENTER_PLACE_UNKNOWNS, sums->gradient, sums->matrix};
         jcal_gn_t gn = jcal_gn_begin();
-        if (jcal_gn_step(&gn, &model, d, NULL) == JCAL_OK) {
+        if (jcal_gn_step(&gn, &model, d, NULL)) {
             const float length = jcal_gn_length(d, JCAL_CENTER_PLACE_UNKNOWNS);
             const float share = (length > STEP_MAX_M) ? (STEP_MAX_M / length) : 1.0f;
             self->start.r1 = jcal_vec3_add(self->start.r1, jcal_vec3_scale(jcal_vec3(d[0], d[1], d[2]), share));

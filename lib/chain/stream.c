@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Hip and knee: config, samples to both joints, and what comes out of both.
+/// Hip and knee: samples to both joints, and what comes out of both.
 #include "jointcal/chain.h"
 
 #include "center/input.h"
@@ -20,56 +20,6 @@
 
 /// 95 % of a Gaussian along a line.
 #define NORMAL_95 1.96f
-
-jcal_chain_config_t jcal_chain_config_default(void)
-{
-    const jcal_chain_config_t config = {
-        .center = jcal_center_config_default(),
-        .segment_tolerance_m = 0.005f,
-        .plane_tolerance_m = 0.03f,
-    };
-    return config;
-}
-
-/// True for a unit vector or zero.
-static bool is_axis(jcal_vec3_t v)
-{
-    const float square = jcal_vec3_dot(v, v);
-    return (square == 0.0f) || jcal_within(square, 0.99f, 1.01f);
-}
-
-static bool is_zero(jcal_vec3_t v)
-{
-    return jcal_vec3_dot(v, v) == 0.0f;
-}
-
-const char *jcal_chain_config_check(const jcal_chain_config_t *config)
-{
-    const char *const wrong = jcal_center_config_check((config == NULL) ? NULL : &config->center);
-    if (wrong != NULL) {
-        return wrong;
-    }
-    if (!is_zero(config->center.hinge_axis1)) {
-        return "hinge_axis1";
-    }
-    if ((config->segment_length_m != 0.0f) && !jcal_within(config->segment_length_m, 0.05f, 1.0f)) {
-        return "segment_length_m";
-    }
-    if (!jcal_within(config->segment_tolerance_m, 1e-4f, 0.1f)) {
-        return "segment_tolerance_m";
-    }
-    if (!is_axis(config->plane_normal)) {
-        return "plane_normal";
-    }
-    if (!jcal_within(config->plane_tolerance_m, 1e-4f, 0.2f)) {
-        return "plane_tolerance_m";
-    }
-    if (!is_axis(config->knee_axis2)) {
-        return "knee_axis2";
-    }
-    return (is_axis(config->knee_axis3) && (is_zero(config->knee_axis2) == is_zero(config->knee_axis3))) ? NULL
-                                                                                                         : "knee_axis3";
-}
 
 jcal_status_t jcal_chain_init(jcal_chain_t *self, const jcal_chain_config_t *config)
 {

@@ -5,6 +5,7 @@
 
 #include "hinge/model.h"
 #include "hinge/refine.h"
+#include "jointcal/head.h"
 #include "math/chol.h"
 #include "math/eig.h"
 #include "math/scalar.h"
@@ -74,7 +75,7 @@ static bool inform(const jcal_hinge_refine_t *refine, const jcal_hinge_lin_t *ac
         biases[jcal_sym_at(i, i)] += prior;
     }
     float scale[TILTS];
-    if (jcal_chol_factor_damped(biases, TILTS, 0.0f, scale) != JCAL_OK) {
+    if (!jcal_chol_factor_damped(biases, TILTS, 0.0f, scale)) {
         return false;
     }
     for (unsigned i = 0u; i < TILTS; ++i) {
@@ -172,7 +173,7 @@ bool jcal_hinge_bounds(const jcal_hinge_refine_t *refine, const jcal_hinge_momen
     jcal_hinge_lin_t acc;
     jcal_hinge_linearise_acc(moments, cfg, &refine->point, &acc);
     if (!inform(refine, &acc, inflate(mean_scatter(refine), noise, blocks), &information) ||
-        (jcal_eig_symmetric(information.sure, TILTS, values, vectors) != JCAL_OK)) {
+        !jcal_eig_symmetric(information.sure, TILTS, values, vectors)) {
         return false;
     }
     float systematic[2];

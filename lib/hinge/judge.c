@@ -9,9 +9,9 @@
 #include "hinge/refine.h"
 #include "hinge/search.h"
 #include "joint/hysteresis.h"
+#include "jointcal/head.h"
 #include "math/scalar.h"
 
-#include <float.h>
 #include <math.h>
 
 /// Integral of the squared difference of the rates, beyond what errors make, that shows that the joint moves, rad^2/s:
@@ -267,9 +267,4 @@ bool jcal_hinge_judge(const jcal_hinge_evidence_t *self, jcal_hinge_verdict_t *v
     const float slack = (verdict->status == (uint8_t)JCAL_READY) ? JCAL_HYSTERESIS : 1.0f;
     report(self, verdict, find_reason(self, &bounds, &sign, slack), &bounds, &sign);
     return !is_hinted(self) && (sign.evidence < SIGN_EVIDENCE_TURN);
-}
-
-float jcal_hinge_progress(float bound_rad, float max_bound_rad)
-{
-    return jcal_min(1.0f, max_bound_rad / jcal_max(bound_rad, FLT_MIN));
 }

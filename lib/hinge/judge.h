@@ -27,7 +27,4 @@ typedef struct {
 /// Works out bounds, sign margin and status from the sums. Returns true if the other sign pairing should become the estimate.
 bool jcal_hinge_judge(const jcal_hinge_evidence_t *self, jcal_hinge_verdict_t *verdict);
 
-/// 0 to 1: how far a bound is on the way to its limit.
-float jcal_hinge_progress(float bound_rad, float max_bound_rad);
-
 #endif /* JCAL_HINGE_JUDGE_H */

@@ -197,7 +197,7 @@ static bool find_gain(jcal_hinge_refine_t *self, const float matrix[36])
         }
     }
     float scale[TILTS];
-    if (jcal_chol_factor_damped(biases, TILTS, DAMPING, scale) != JCAL_OK) {
+    if (!jcal_chol_factor_damped(biases, TILTS, DAMPING, scale)) {
         return false;
     }
     for (unsigned i = 0u; i < TILTS; ++i) {
@@ -231,7 +231,7 @@ static bool find_step(jcal_hinge_refine_t *self, const jcal_hinge_config_t *cfg,
         d[TILTS + i] = -(self->gradient[TILTS + i] + (prior * self->bias[i]));
     }
     float scale[UNKNOWNS];
-    if (!find_gain(self, matrix) || (jcal_chol_factor_damped(matrix, UNKNOWNS, DAMPING, scale) != JCAL_OK)) {
+    if (!find_gain(self, matrix) || !jcal_chol_factor_damped(matrix, UNKNOWNS, DAMPING, scale)) {
         return false;
     }
     jcal_chol_solve_scaled(matrix, UNKNOWNS, scale, d);

@@ -36,9 +36,9 @@ static bool step(const jcal_hinge_lin_t *lin, float *damping, float d[JCAL_HINGE
 {
     const jcal_gn_model_t model = {JCAL_HINGE_TILTS, lin->gradient, lin->matrix};
     jcal_gn_t gn = {*damping};
-    const jcal_status_t status = jcal_gn_step(&gn, &model, d, NULL);
+    const bool done = jcal_gn_step(&gn, &model, d, NULL);
     *damping = gn.damping;
-    if (status != JCAL_OK) {
+    if (!done) {
         return false;
     }
     float longest = 0.0f;
@@ -96,7 +96,7 @@ static jcal_vec3_t rate_eigenvector(const jcal_hinge_moments_t *moments, unsigne
     const float packed[6] = {sums[0], sums[3], sums[1], sums[4], sums[5], sums[2]}; /* lower triangle */
     float values[3];
     float vectors[9];
-    if (jcal_eig_symmetric(packed, 3u, values, vectors) != JCAL_OK) {
+    if (!jcal_eig_symmetric(packed, 3u, values, vectors)) {
         return jcal_vec3((which == 0u) ? 1.0f : 0.0f, (which == 1u) ? 1.0f : 0.0f, (which == 2u) ? 1.0f : 0.0f);
     }
     const float *const v = &vectors[3u * which];

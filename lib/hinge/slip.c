@@ -52,7 +52,7 @@ bool jcal_hinge_slip_alarm(const jcal_hinge_slip_t *self, float allowed_rad)
     for (unsigned i = 0u; i < JCAL_SYM_SIZE(TILTS); ++i) {
         factor[i] = self->matrix[i];
     }
-    if ((self->time_s < SEEN_MIN_S) || (jcal_chol_factor_damped(factor, TILTS, DAMPING, scale) != JCAL_OK)) {
+    if ((self->time_s < SEEN_MIN_S) || !jcal_chol_factor_damped(factor, TILTS, DAMPING, scale)) {
         return false;
     }
     float explained = 0.0f;

@@ -1,16 +1,15 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Window engine of the hinge: config, storage, inbox, and the order of work per sample.
+/// Window engine of the hinge: storage, inbox, and the order of work per sample.
 #include "jointcal/hinge_window.h"
 
-#include "hinge/judge.h"
 #include "hinge/stream.h"
 #include "hinge/window_cost.h"
 #include "hinge/window_solve.h"
+#include "joint/head.h"
 #include "joint/hysteresis.h"
 #include "joint/sign.h"
 #include "jointcal/vec3.h"
-#include "math/angle.h"
 #include "math/scalar.h"
 #include "math/sphere.h"
 #include "sample/ring.h"
@@ -58,45 +57,6 @@ static jcal_hinge_rows_t selected(const jcal_hinge_window_t *self)
         self->cfg.w0,
     };
     return rows;
-}
-
-jcal_hinge_window_config_t jcal_hinge_window_config_default(void)
-{
-    const jcal_hinge_window_config_t config = {
-        .hinge = jcal_hinge_config_default(),
-        .n_max = 500u,
-        .half_window = 21u,
-        .w0 = 50.0f,
-        .energy_max_rad2_s2 = 1.0f,
-        .acc_min = 250u,
-        .accept_bound_rad = 3.0f * JCAL_RAD_PER_DEG,
-        .accept_count = 10u,
-        .solve_period_s = 1.0f,
-        .seed = 2020u,
-    };
-    return config;
-}
-
-const char *jcal_hinge_window_config_check(const jcal_hinge_window_config_t *config)
-{
-    if (config == NULL) {
-        return "config";
-    }
-    const char *wrong = jcal_hinge_config_check(&config->hinge);
-    if (wrong != NULL) {
-        return wrong;
-    }
-    wrong = ((config->n_max < 20u) || (config->n_max > 10000u)) ? "n_max" : wrong;
-    wrong = (config->half_window > 100u) ? "half_window" : wrong;
-    wrong = jcal_within(config->w0, 1e-3f, 1e10f) ? wrong : "w0";
-    wrong = (jcal_within(config->energy_max_rad2_s2, 0.0f, 1e4f) && (config->energy_max_rad2_s2 > 0.0f))
-                ? wrong
-                : "energy_max_rad2_s2";
-    wrong = (config->acc_min > 10000u) ? "acc_min" : wrong;
-    wrong = jcal_within(config->accept_bound_rad, 0.001f, 0.5f) ? wrong : "accept_bound_rad";
-    wrong = ((config->accept_count < 1u) || (config->accept_count > 100u)) ? "accept_count" : wrong;
-    wrong = jcal_within(config->solve_period_s, 0.1f, 60.0f) ? wrong : "solve_period_s";
-    return wrong;
 }
 
 size_t jcal_hinge_window_storage_bytes(const jcal_hinge_window_config_t *config)
@@ -331,8 +291,8 @@ jcal_status_t jcal_hinge_window_get(const jcal_hinge_window_t *self, jcal_hinge_
     } else {
         say_no_axes(&result);
     }
-    result.progress_axis1 = jcal_hinge_progress(result.uncertainty1_rad, self->cfg.hinge.max_bound_rad);
-    result.progress_axis2 = jcal_hinge_progress(result.uncertainty2_rad, self->cfg.hinge.max_bound_rad);
+    result.progress_axis1 = jcal_head_progress(result.uncertainty1_rad, self->cfg.hinge.max_bound_rad);
+    result.progress_axis2 = jcal_head_progress(result.uncertainty2_rad, self->cfg.hinge.max_bound_rad);
     *out = result;
     return JCAL_OK;
 }

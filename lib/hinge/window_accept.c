@@ -34,7 +34,7 @@ void jcal_hinge_local_uncertainty(const jcal_hinge_sums_t *sums, float local_rad
     for (size_t k = 0u; k < JCAL_SYM_SIZE(UNKNOWNS); ++k) {
         information[k] = (sums->gyr.matrix[k] / variance_gyr) + (sums->acc.matrix[k] / variance_acc);
     }
-    if (jcal_chol_factor(information, UNKNOWNS, information, NULL) != JCAL_OK) {
+    if (!jcal_chol_factor(information, UNKNOWNS, information, NULL)) {
         return;
     }
     jcal_chol_inverse(information, UNKNOWNS, covariance);

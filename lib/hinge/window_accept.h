@@ -5,7 +5,8 @@
 #define JCAL_HINGE_ACCEPT_H
 
 #include "hinge/window_cost.h"
-#include "jointcal/hinge_window.h"
+#include "jointcal/hinge_config.h"
+#include "jointcal/private/hinge/window_search.h"
 
 #ifdef __cplusplus
 extern "C" {

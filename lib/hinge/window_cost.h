@@ -4,8 +4,11 @@
 #ifndef JCAL_HINGE_COST_H
 #define JCAL_HINGE_COST_H
 
-#include "jointcal/hinge_window.h"
+#include "jointcal/private/hinge/window_search.h"
+#include "jointcal/private/select.h"
 #include "math/sym.h"
+
+#include <stddef.h>
 
 #ifdef __cplusplus
 extern "C" {

@@ -7,7 +7,7 @@
 #ifndef JCAL_HINGE_RESIDUAL_H
 #define JCAL_HINGE_RESIDUAL_H
 
-#include "jointcal/hinge_window.h"
+#include "jointcal/vec3.h"
 #include "math/sphere.h"
 
 #include <float.h>

@@ -4,6 +4,7 @@
 #include "hinge/window_solve.h"
 
 #include "hinge/window_accept.h"
+#include "jointcal/hinge_window.h"
 #include "math/rng.h"
 #include "math/solve.h"
 #include "math/sphere.h"
@@ -41,8 +42,8 @@ static bool iterate(const jcal_hinge_rows_t *rows, jcal_hinge_axes_t *axes, floa
     jcal_gn_t gn = {*damping};
     float d[UNKNOWNS];
     float predicted = 0.0f;
-    const jcal_status_t status = jcal_gn_step(&gn, &model, d, &predicted);
-    if (status == JCAL_OK) {
+    const bool done = jcal_gn_step(&gn, &model, d, &predicted);
+    if (done) {
         jcal_hinge_axes_t trial = *axes;
         jcal_gn_move(trial.j, 2u, NULL, 0u, d);
         if (jcal_gn_judge(&gn, predicted, jcal_hinge_cost_change(rows, axes, &trial))) {
@@ -50,7 +51,7 @@ static bool iterate(const jcal_hinge_rows_t *rows, jcal_hinge_axes_t *axes, floa
         }
     }
     *damping = gn.damping;
-    return (status == JCAL_OK) && (jcal_gn_length(d, UNKNOWNS) < step_tolerance_rad);
+    return done && (jcal_gn_length(d, UNKNOWNS) < step_tolerance_rad);
 }
 
 /* +1 or -1: the sign of the component of largest magnitude. */

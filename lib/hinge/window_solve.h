@@ -5,7 +5,9 @@
 #define JCAL_HINGE_WINDOW_SOLVE_H
 
 #include "hinge/window_cost.h"
-#include "jointcal/hinge_window.h"
+#include "jointcal/private/hinge/window.h"
+
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {

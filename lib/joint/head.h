@@ -29,4 +29,7 @@ static inline void jcal_head_count(jcal_head_t *head, uint32_t samples, const ui
     }
 }
 
+/// 0 to 1: how far a bound is on the way to its limit, both in the same unit.
+float jcal_head_progress(float bound, float limit);
+
 #endif /* JCAL_JOINT_HEAD_H */

@@ -5,7 +5,7 @@
 #define JCAL_ANGLE_H
 
 #include "jointcal/config.h"
-#include "jointcal/types.h"
+#include "jointcal/private/plane.h"
 
 #ifdef __cplusplus
 extern "C" {

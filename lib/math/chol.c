@@ -28,10 +28,10 @@ static float reduced(float m, const float *li, const float *lj, size_t j)
     return sum;
 }
 
-jcal_status_t jcal_chol_factor(const float *m, size_t n, float *l, float *pivot_ratio)
+bool jcal_chol_factor(const float *m, size_t n, float *l, float *pivot_ratio)
 {
     if ((m == NULL) || (l == NULL) || (n < 1u) || (n > JCAL_CHOL_MAX)) {
-        return JCAL_ERR_ARG;
+        return false;
     }
     const float tolerance = JCAL_CHOL_PIVOT_FACTOR * (float)n * FLT_EPSILON * largest_diagonal(m, n);
     float smallest_ratio = 1.0f;
@@ -48,7 +48,7 @@ jcal_status_t jcal_chol_factor(const float *m, size_t n, float *l, float *pivot_
         /* Written this way round so that NaN fails. With an infinite element the tolerance or the pivot is one of
            infinity, -infinity and NaN, and fails as well. */
         if (!(pivot > tolerance)) {
-            return JCAL_ERR_SINGULAR;
+            return false;
         }
         const float ratio = pivot / diagonal;
         smallest_ratio = (ratio < smallest_ratio) ? ratio : smallest_ratio;
@@ -59,7 +59,7 @@ jcal_status_t jcal_chol_factor(const float *m, size_t n, float *l, float *pivot_
     if (pivot_ratio != NULL) {
         *pivot_ratio = smallest_ratio;
     }
-    return JCAL_OK;
+    return true;
 }
 
 void jcal_chol_scale(float *m, size_t n, float *scale)
@@ -102,7 +102,7 @@ void jcal_chol_solve(const float *l, size_t n, const float *b, float *x)
     }
 }
 
-jcal_status_t jcal_chol_factor_damped(float *m, size_t n, float damping, float *scale)
+bool jcal_chol_factor_damped(float *m, size_t n, float damping, float *scale)
 {
     jcal_chol_scale(m, n, scale);
     for (size_t i = 0u; i < n; ++i) {

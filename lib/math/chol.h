@@ -6,9 +6,10 @@
 #ifndef JCAL_CHOL_H
 #define JCAL_CHOL_H
 
-#include "jointcal/status.h"
+#include "jointcal/config.h"
 #include "math/sym.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -31,9 +32,9 @@ extern "C" {
 /// Inputs:   m; n in [1, JCAL_CHOL_MAX].
 /// Outputs:  l, which may be m itself; pivot_ratio (may be null) the smallest of pivot / original diagonal element,
 ///           in (0, 1]: 1 for a diagonal matrix, near 0 when some unknown follows from the ones before it.
-/// Errors:   JCAL_ERR_ARG (null, n); JCAL_ERR_SINGULAR (a pivot is not above the tolerance; NaN; infinity): l is lost.
+/// Returns:  false if an argument is null or n out of range, or if a pivot is not above the tolerance (NaN; infinity): l is lost.
 /// Cost:     n^3 / 6 multiply-adds, n square roots, n^2 / 2 divisions; stack about 100 B.
-JCAL_MUST_CHECK jcal_status_t jcal_chol_factor(const float *m, size_t n, float *l, float *pivot_ratio);
+JCAL_MUST_CHECK bool jcal_chol_factor(const float *m, size_t n, float *l, float *pivot_ratio);
 
 /// Brings m (n x n) to a unit diagonal: m_ik <- s_i s_k m_ik with s_i = 1 / sqrt(m_ii); an element of the diagonal that is
 /// not positive keeps s_i = 1. Unknowns of very different units or information can then be factorised together.
@@ -48,9 +49,9 @@ void jcal_chol_solve(const float *l, size_t n, const float *b, float *x);
 /// m (n x n) <- factor of M + damping D, D the diagonal of M, brought to a unit diagonal before: for jcal_chol_solve_scaled.
 ///
 /// Outputs:  scale (n), as jcal_chol_scale.
-/// Errors:   JCAL_ERR_SINGULAR: m is lost.
+/// Returns:  as jcal_chol_factor; m is lost.
 /// Cost:     n^3 / 6 + n^2 multiply-adds, 2 n square roots.
-JCAL_MUST_CHECK jcal_status_t jcal_chol_factor_damped(float *m, size_t n, float damping, float *scale);
+JCAL_MUST_CHECK bool jcal_chol_factor_damped(float *m, size_t n, float damping, float *scale);
 
 /// x (n) <- M^-1 x from the factor l of the scaled matrix and its scale (n). Cost: as jcal_chol_solve.
 void jcal_chol_solve_scaled(const float *l, size_t n, const float *scale, float *x);

@@ -126,14 +126,14 @@ static float dominant_sign(const float *v, size_t n)
     return (dominant < 0.0f) ? -1.0f : 1.0f;
 }
 
-jcal_status_t jcal_eig_symmetric(const float *m, size_t n, float *values, float *vectors)
+bool jcal_eig_symmetric(const float *m, size_t n, float *values, float *vectors)
 {
     if ((m == NULL) || (values == NULL) || (vectors == NULL) || (n < 1u) || (n > JCAL_EIG_MAX)) {
-        return JCAL_ERR_ARG;
+        return false;
     }
     for (size_t k = 0u; k < JCAL_SYM_SIZE(n); ++k) {
         if (!(fabsf(m[k]) <= FLT_MAX)) {
-            return JCAL_ERR_SINGULAR;
+            return false;
         }
     }
     jacobi_t work;
@@ -153,5 +153,5 @@ jcal_status_t jcal_eig_symmetric(const float *m, size_t n, float *values, float 
             vectors[(rank * n) + k] = sign * work.v[(row * n) + k];
         }
     }
-    return JCAL_OK;
+    return true;
 }

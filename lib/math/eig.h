@@ -4,9 +4,10 @@
 #ifndef JCAL_EIG_H
 #define JCAL_EIG_H
 
-#include "jointcal/status.h"
+#include "jointcal/config.h"
 #include "math/sym.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #ifdef __cplusplus
@@ -23,11 +24,11 @@ extern "C" {
 ///
 /// Inputs:   m, finite; n in [1, JCAL_EIG_MAX].
 /// Outputs:  values (n) in descending order; vectors (n x n, row-major): row k is the unit eigenvector of values[k],
-///           its largest component positive. Untouched on error. Absolute error of a value: a few FLT_EPSILON times
+///           its largest component positive. Untouched where it returns false. Absolute error of a value: a few FLT_EPSILON times
 ///           the largest one.
-/// Errors:   JCAL_ERR_ARG (null, n); JCAL_ERR_SINGULAR (something is not finite).
+/// Returns:  false if an argument is null, n out of range, or something in m not finite.
 /// Cost:     at most JCAL_EIG_SWEEPS * n (n - 1) / 2 rotations of 6 n multiply-adds; stack about 350 B.
-JCAL_MUST_CHECK jcal_status_t jcal_eig_symmetric(const float *m, size_t n, float *values, float *vectors);
+JCAL_MUST_CHECK bool jcal_eig_symmetric(const float *m, size_t n, float *values, float *vectors);
 
 #ifdef __cplusplus
 }

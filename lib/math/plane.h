@@ -4,7 +4,7 @@
 #ifndef JCAL_PLANE_H
 #define JCAL_PLANE_H
 
-#include "jointcal/types.h"
+#include "jointcal/private/plane.h"
 
 #include <math.h>
 

@@ -47,16 +47,16 @@ float jcal_gn_predict(const jcal_gn_model_t *model, const float *d)
     return linear + (0.5f * jcal_sym_quadratic(model->matrix, model->n, d));
 }
 
-jcal_status_t jcal_gn_step(jcal_gn_t *gn, const jcal_gn_model_t *model, float *d, float *predicted)
+bool jcal_gn_step(jcal_gn_t *gn, const jcal_gn_model_t *model, float *d, float *predicted)
 {
     if ((gn == NULL) || (model == NULL) || (d == NULL) || (model->n < 1u) || (model->n > JCAL_CHOL_MAX)) {
-        return JCAL_ERR_ARG;
+        return false;
     }
     float work[JCAL_SYM_SIZE(JCAL_CHOL_MAX)]; /* n x n, packed */
     damped_matrix(model, gn->damping, work);
-    if (jcal_chol_factor(work, model->n, work, NULL) != JCAL_OK) {
+    if (!jcal_chol_factor(work, model->n, work, NULL)) {
         set_damping(gn, gn->damping * damping_refused);
-        return JCAL_ERR_SINGULAR;
+        return false;
     }
     float step[JCAL_CHOL_MAX];
     for (size_t i = 0u; i < model->n; ++i) {
@@ -66,7 +66,7 @@ jcal_status_t jcal_gn_step(jcal_gn_t *gn, const jcal_gn_model_t *model, float *d
     const float promise = jcal_gn_predict(model, step);
     if (!(promise <= 0.0f)) { /* NaN in the gradient, or a matrix that is not semidefinite */
         set_damping(gn, gn->damping * damping_refused);
-        return JCAL_ERR_SINGULAR;
+        return false;
     }
     for (size_t i = 0u; i < model->n; ++i) {
         d[i] = step[i];
@@ -74,7 +74,7 @@ jcal_status_t jcal_gn_step(jcal_gn_t *gn, const jcal_gn_model_t *model, float *d
     if (predicted != NULL) {
         *predicted = promise;
     }
-    return JCAL_OK;
+    return true;
 }
 
 bool jcal_gn_judge(jcal_gn_t *gn, float predicted, float actual)

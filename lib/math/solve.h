@@ -18,7 +18,7 @@
 #ifndef JCAL_SOLVE_H
 #define JCAL_SOLVE_H
 
-#include "jointcal/status.h"
+#include "jointcal/config.h"
 #include "jointcal/vec3.h"
 #include "math/chol.h"
 
@@ -62,11 +62,11 @@ static inline jcal_gn_t jcal_gn_begin(void)
 
 /// The damped step d = -(matrix + damping D)^-1 gradient.
 ///
-/// Outputs:  d (n); predicted (may be null): the change of cost that the model promises, <= 0. Untouched on error.
-/// Errors:   JCAL_ERR_ARG; JCAL_ERR_SINGULAR: no step with this damping, or a NaN; the damping was raised, so that
-///           the next call may succeed.
+/// Outputs:  d (n); predicted (may be null): the change of cost that the model promises, <= 0. Untouched where it returns false.
+/// Returns:  false if there is no step with this damping, or a NaN; the damping was raised, so that the next call may succeed. Also
+///           if an argument is null or n out of range.
 /// Cost:     n^3 / 6 + 2 n^2 multiply-adds; stack about 600 B.
-JCAL_MUST_CHECK jcal_status_t jcal_gn_step(jcal_gn_t *gn, const jcal_gn_model_t *model, float *d, float *predicted);
+JCAL_MUST_CHECK bool jcal_gn_step(jcal_gn_t *gn, const jcal_gn_model_t *model, float *d, float *predicted);
 
 /// The change of cost that the undamped model promises for a step d (n): gradient . d + d^T matrix d / 2.
 float jcal_gn_predict(const jcal_gn_model_t *model, const float *d);

@@ -6,8 +6,10 @@
 
 #include "jointcal/vec3.h"
 #include "math/angle.h"
+#include "math/scalar.h"
 
 #include <float.h>
+#include <stdbool.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -48,6 +50,13 @@ static inline jcal_vec3_t jcal_sphere_move(jcal_vec3_t j, const jcal_tangent_t *
     const jcal_vec3_t moved = jcal_vec3_add(j, jcal_sphere_lift(t, du, dv));
     const float norm = jcal_vec3_norm(moved);
     return ((norm > 0.0f) && (norm <= FLT_MAX)) ? jcal_vec3_scale(moved, 1.0f / norm) : j;
+}
+
+/// True for what a config may hold as an axis: a vector of length 1 to within half a percent, or zero for none.
+static inline bool jcal_sphere_is_axis_or_none(jcal_vec3_t v)
+{
+    const float square = jcal_vec3_dot(v, v);
+    return (square == 0.0f) || jcal_within(square, 0.99f, 1.01f);
 }
 
 /// Angle between two directions of any non-zero length, rad, in [0, pi]; exact to 1e-6 rad near 0 and near pi too.

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Checks of single sample pairs. See gate.h.
-#include "jointcal/gate.h"
+#include "sample/gate.h"
 
 #include "math/scalar.h"
 #include "sample/clock.h"

@@ -55,10 +55,10 @@ static void top_direction(const jcal_select_acc_t *self, float top[ROW])
 {
     float values[ROW];
     float vectors[ROW * ROW]; /* 6 x 6 */
-    const jcal_status_t status = jcal_eig_symmetric(self->ata, ROW, values, vectors);
+    const bool done = jcal_eig_symmetric(self->ata, ROW, values, vectors);
     for (size_t k = 0u; k < ROW; ++k) {
         /* Without a direction (A is not finite) no row is coherent. */
-        top[k] = (status == JCAL_OK) ? vectors[k] : 0.0f;
+        top[k] = done ? vectors[k] : 0.0f;
     }
 }
 

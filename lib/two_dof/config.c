@@ -5,7 +5,7 @@
 
 #include "joint/sign.h"
 #include "math/angle.h"
-#include "math/scalar.h"
+#include "math/limits.h"
 
 #include <stddef.h>
 
@@ -25,17 +25,12 @@ jcal_two_dof_config_t jcal_two_dof_config_default(void)
     return config;
 }
 
-typedef struct {
-    const char *name;
-    float value, low, high;
-} field_t;
-
 const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config)
 {
     if (config == NULL) {
         return "config";
     }
-    const field_t fields[] = {
+    const jcal_limit_t fields[] = {
         {"max_bound_rad", config->max_bound_rad, 0.001f, 0.5f},
         {"mismatch_rad", config->mismatch_rad, 0.0f, 0.1f},
         {"rate_noise_rad_s", config->rate_noise_rad_s, 1e-3f, 1.0f},
@@ -44,10 +39,9 @@ const char *jcal_two_dof_config_check(const jcal_two_dof_config_t *config)
         {"heading_drift_rad_s", config->heading_drift_rad_s, 0.0f, 0.05f},
         {"memory_s", config->memory_s, 2.0f, 600.0f},
     };
-    for (size_t i = 0u; i < (sizeof fields / sizeof fields[0]); ++i) {
-        if (!jcal_within(fields[i].value, fields[i].low, fields[i].high)) {
-            return fields[i].name;
-        }
+    const char *const out = jcal_limits_check(fields, sizeof fields / sizeof fields[0]);
+    if (out != NULL) {
+        return out;
     }
     const int constraint = (int)config->constraint;
     if ((constraint < (int)JCAL_CONSTRAINT_COMBINED) || (constraint > (int)JCAL_CONSTRAINT_ORIENTATION)) {

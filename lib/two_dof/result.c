@@ -12,11 +12,6 @@
 #include <math.h>
 #include <stddef.h>
 
-static float progress(float bound_rad, float max_bound_rad)
-{
-    return (bound_rad > 0.0f) ? jcal_min(max_bound_rad / bound_rad, 1.0f) : 1.0f;
-}
-
 static void put_estimate(const jcal_two_dof_verdict_t *verdict, const jcal_two_dof_config_t *cfg,
                          const jcal_two_dof_point_t *point, jcal_two_dof_result_t *out)
 {
@@ -43,9 +38,9 @@ void jcal_two_dof_report(const jcal_two_dof_verdict_t *verdict, const jcal_two_d
     out->uncertainty_heading_rad = verdict->bound_heading_rad;
     if (point != NULL) {
         out->has_axes = true;
-        out->progress_axis1 = progress(verdict->bound1_rad, limit);
-        out->progress_axis2 = progress(verdict->bound2_rad, limit);
-        out->progress_heading = progress(verdict->bound_heading_rad, limit);
+        out->progress_axis1 = jcal_head_progress(verdict->bound1_rad, limit);
+        out->progress_axis2 = jcal_head_progress(verdict->bound2_rad, limit);
+        out->progress_heading = jcal_head_progress(verdict->bound_heading_rad, limit);
         put_estimate(verdict, cfg, point, out);
     }
 }

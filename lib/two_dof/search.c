@@ -4,29 +4,13 @@
 #include "two_dof/search.h"
 
 #include "math/scalar.h"
-#include "math/solve.h"
 #include "two_dof/model.h"
 #include "two_dof/prior.h"
 #include "two_dof/starts.h"
+#include "two_dof/step.h"
 
 /// So many starts are tried before the exchanged axes are once more.
 #define EXCHANGE_EVERY 1u
-
-/// A probe ends after so many steps, or when a step is shorter than this, rad.
-#define PROBE_STEPS 14u
-#define STEP_MIN_RAD 3e-3f
-/// After so many steps a probe is given up, if several times the gain that it promises would leave it this far above the estimate.
-#define HOPELESS_STEPS 3u
-#define HOPE 4.0f
-#define HOPELESS_GAP 100.0f
-/// Longest step, rad: the model is worth nothing further away.
-#define STEP_MAX_RAD 0.5f
-
-/// A step that makes the cost larger by less than this share of it stands: samples that came in meanwhile did it.
-#define HARMLESS_SHARE 0.02f
-
-/// A new minimum must be better than the estimate by this much, in units of the cost's standard deviation.
-#define BETTER 1.0f
 
 /// First half of a linearisation: the rotation-based form.
 static void first_half(jcal_two_dof_search_t *search, const jcal_two_dof_landscape_t *landscape,
@@ -66,22 +50,7 @@ static float make_step(jcal_two_dof_probe_t *probe, jcal_gn_t *gn, const jcal_tw
 {
     const jcal_gn_model_t model = {JCAL_TWO_DOF_UNKNOWNS, lin->gradient, lin->matrix};
     probe->from = probe->point;
-    probe->predicted = 0.0f;
-    for (unsigned i = 0u; i < JCAL_TWO_DOF_UNKNOWNS; ++i) {
-        d[i] = 0.0f;
-    }
-    if (jcal_gn_step(gn, &model, d, &probe->predicted) != JCAL_OK) {
-        return STEP_MAX_RAD;
-    }
-    const float length = jcal_gn_length(d, JCAL_TWO_DOF_UNKNOWNS);
-    if (length > STEP_MAX_RAD) {
-        for (unsigned i = 0u; i < JCAL_TWO_DOF_UNKNOWNS; ++i) {
-            d[i] *= STEP_MAX_RAD / length;
-        }
-        probe->predicted = jcal_gn_predict(&model, d);
-    }
-    jcal_two_dof_point_move(&probe->point, d);
-    return length;
+    return jcal_two_dof_make_step(gn, &model, &probe->point, d, &probe->predicted);
 }
 
 /// Judges the probe's last step and makes the next one. Samples came in meanwhile: costs are compared per second of motion.
@@ -93,11 +62,11 @@ static float advance(jcal_two_dof_search_t *search, float moving_s)
     const float change = 0.5f * (lin->cost - (probe->from_cost * moving_s));
     if ((probe->steps > 0u) && (probe->predicted < 0.0f)) {
         const bool kept = jcal_gn_judge(&gn, probe->predicted, change);
-        if (!kept && (change > (HARMLESS_SHARE * lin->cost))) {
+        if (!kept && (change > (JCAL_TWO_DOF_HARMLESS_SHARE * lin->cost))) {
             probe->damping = gn.damping;
             probe->point = probe->from;
             probe->predicted = 0.0f;
-            return STEP_MAX_RAD;
+            return JCAL_TWO_DOF_STEP_MAX_RAD;
         }
         probe->damping = kept ? gn.damping : probe->damping;
     }
@@ -165,7 +134,7 @@ static jcal_two_dof_found_t file_probe(jcal_two_dof_search_t *search)
         adopt(search, point, cost);
         return JCAL_TWO_DOF_ESTIMATE;
     }
-    const bool better = cost < (search->cost - BETTER);
+    const bool better = cost < (search->cost - JCAL_TWO_DOF_BETTER);
     if (jcal_two_dof_is_near(&search->best.point, point, JCAL_TWO_DOF_SAME_COSINE)) {
         if (better) {
             jcal_two_dof_point_t aligned = *point; /* the senses stay: the mean of the sine goes with them */
@@ -192,8 +161,9 @@ static jcal_two_dof_found_t file_probe(jcal_two_dof_search_t *search)
 /// True if the next steps would have to gain several times what the last one promised to come near the estimate's cost.
 static bool is_hopeless(const jcal_two_dof_search_t *search)
 {
-    const float hoped = search->lin.cost + (HOPE * 2.0f * search->probe.predicted);
-    return search->has_best && (search->probe.steps >= HOPELESS_STEPS) && (hoped > (search->cost + HOPELESS_GAP));
+    const float hoped = search->lin.cost + (JCAL_TWO_DOF_HOPE * 2.0f * search->probe.predicted);
+    return search->has_best && (search->probe.steps >= JCAL_TWO_DOF_HOPELESS_STEPS) &&
+           (hoped > (search->cost + JCAL_TWO_DOF_HOPELESS_GAP));
 }
 
 jcal_two_dof_found_t jcal_two_dof_probe(jcal_two_dof_search_t *search, const jcal_two_dof_landscape_t *landscape)
@@ -213,7 +183,8 @@ jcal_two_dof_found_t jcal_two_dof_probe(jcal_two_dof_search_t *search, const jca
     search->probe.steps = (uint8_t)(search->probe.steps + 1u);
     const bool joined =
         search->has_best && jcal_two_dof_is_near(&search->best.point, point, JCAL_TWO_DOF_JOINED_COSINE);
-    const bool ended = (length < STEP_MIN_RAD) || (search->probe.steps >= PROBE_STEPS) || is_hopeless(search);
+    const bool ended = (length < JCAL_TWO_DOF_STEP_MIN_RAD) || (search->probe.steps >= JCAL_TWO_DOF_PROBE_STEPS) ||
+                       is_hopeless(search);
     return (ended || joined) ? file_probe(search) : JCAL_TWO_DOF_DONE;
 }
 

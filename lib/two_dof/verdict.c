@@ -5,7 +5,7 @@
 
 #include "joint/hysteresis.h"
 #include "joint/sign.h"
-#include "math/angle.h"
+#include "jointcal/head.h"
 #include "math/chol.h"
 #include "math/clear.h"
 #include "math/scalar.h"
@@ -14,9 +14,6 @@
 
 #include <math.h>
 #include <stddef.h>
-
-/// Bound of something of which nothing is known: a right angle; the heading may be turned by half a turn.
-#define UNKNOWN_RAD JCAL_HALF_PI
 
 /// 95 % of a Gaussian: squares of 1.96, and what the smaller of two equal variances adds up to 2.45^2.
 #define SQUARE_1D 3.84f
@@ -71,7 +68,7 @@ bool jcal_two_dof_covariance(float *matrix, unsigned n, float *inverse)
 {
     float scale[JCAL_CHOL_MAX];
     jcal_chol_scale(matrix, n, scale);
-    if (jcal_chol_factor(matrix, n, matrix, NULL) != JCAL_OK) {
+    if (!jcal_chol_factor(matrix, n, matrix, NULL)) {
         return false;
     }
     jcal_chol_inverse(matrix, n, inverse);
@@ -85,18 +82,18 @@ bool jcal_two_dof_covariance(float *matrix, unsigned n, float *inverse)
 
 static bounds_t bounds_of(const jcal_two_dof_config_t *cfg, const jcal_two_dof_evidence_t *evidence)
 {
-    bounds_t bounds = {UNKNOWN_RAD, UNKNOWN_RAD, UNKNOWN_RAD};
+    bounds_t bounds = {JCAL_BOUND_UNKNOWN_RAD, JCAL_BOUND_UNKNOWN_RAD, JCAL_BOUND_UNKNOWN_RAD};
     const float *const p = evidence->covariance;
     if (p == NULL) {
         return bounds;
     }
     const float mismatch = cfg->mismatch_rad;
     const float drift = cfg->heading_drift_rad_s * evidence->age_s;
-    bounds.axis1 = jcal_min(radius(p[0], p[1], p[2]) + mismatch, UNKNOWN_RAD);
+    bounds.axis1 = jcal_min(radius(p[0], p[1], p[2]) + mismatch, JCAL_BOUND_UNKNOWN_RAD);
     bounds.axis2 = jcal_min(radius(p[jcal_sym_at(2u, 2u)], p[jcal_sym_at(3u, 2u)], p[jcal_sym_at(3u, 3u)]) + mismatch,
-                            UNKNOWN_RAD);
+                            JCAL_BOUND_UNKNOWN_RAD);
     const float spread = sqrtf(SQUARE_1D * jcal_max(p[jcal_sym_at(4u, 4u)], 0.0f));
-    bounds.heading = jcal_min(spread + (HEADING_MISMATCH * mismatch) + drift, UNKNOWN_RAD);
+    bounds.heading = jcal_min(spread + (HEADING_MISMATCH * mismatch) + drift, JCAL_BOUND_UNKNOWN_RAD);
     return bounds;
 }
 
@@ -167,9 +164,9 @@ void jcal_two_dof_verdict_begin(jcal_two_dof_verdict_t *verdict, jcal_calibratio
 {
     jcal_clear(verdict, sizeof *verdict);
     verdict->status = (uint8_t)status;
-    verdict->bound1_rad = UNKNOWN_RAD;
-    verdict->bound2_rad = UNKNOWN_RAD;
-    verdict->bound_heading_rad = UNKNOWN_RAD;
+    verdict->bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
+    verdict->bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
+    verdict->bound_heading_rad = JCAL_BOUND_UNKNOWN_RAD;
     verdict->excess = 1.0f;
     say(verdict, JCAL_WEAK_AXIS1, JCAL_HINT_MOVE_JOINT, JCAL_REASON_NO_DATA);
 }
@@ -180,9 +177,9 @@ void jcal_two_dof_conclude(jcal_two_dof_verdict_t *verdict, const jcal_two_dof_c
     const float misfit = misfit_of(cfg, evidence);
     const bounds_t bounds = bounds_of(cfg, evidence);
     const bool open = has_close_rival(evidence); /* a bound around one of two places bounds nothing */
-    verdict->bound1_rad = open ? UNKNOWN_RAD : bounds.axis1;
-    verdict->bound2_rad = open ? UNKNOWN_RAD : bounds.axis2;
-    verdict->bound_heading_rad = open ? UNKNOWN_RAD : bounds.heading;
+    verdict->bound1_rad = open ? JCAL_BOUND_UNKNOWN_RAD : bounds.axis1;
+    verdict->bound2_rad = open ? JCAL_BOUND_UNKNOWN_RAD : bounds.axis2;
+    verdict->bound_heading_rad = open ? JCAL_BOUND_UNKNOWN_RAD : bounds.heading;
     verdict->sine = evidence->sine;
     const jcal_calibration_t found = missing(verdict, cfg, evidence, &bounds, misfit);
     if (found != JCAL_READY) {

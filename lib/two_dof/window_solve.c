@@ -5,8 +5,8 @@
 
 #include "joint/watch.h"
 #include "math/scalar.h"
-#include "math/solve.h"
 #include "two_dof/starts.h"
+#include "two_dof/step.h"
 #include "two_dof/verdict.h"
 
 #include <float.h>
@@ -14,20 +14,6 @@
 
 /// The estimate's steps are damped by this little: enough for directions in which nothing moves.
 #define FOLLOW_DAMPING 1e-4f
-/// Longest step, rad: the model is worth nothing further away.
-#define STEP_MAX_RAD 0.5f
-
-/// A probe ends after so many steps, or when a step is shorter than this, rad.
-#define PROBE_STEPS 14u
-#define STEP_MIN_RAD 3e-3f
-/// After so many steps a probe is given up, if several times the gain that it promises would leave it this far above the estimate.
-#define HOPELESS_STEPS 3u
-#define HOPE 4.0f
-#define HOPELESS_GAP 100.0f
-/// A step that makes the cost larger by less than this share of it stands: a sample that came in meanwhile did it.
-#define HARMLESS_SHARE 0.02f
-/// Another minimum must be better than the estimate by this much, in units of the cost's standard deviation.
-#define BETTER 1.0f
 
 /// Kept samples from one judgement to the next.
 #define TURNS 4u
@@ -53,18 +39,7 @@ static float make_step(jcal_two_dof_trace_t *trace, jcal_gn_t *gn, const jcal_tw
     float d[JCAL_TWO_DOF_WINDOW_UNKNOWNS] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
     trace->from = trace->point;
     trace->from_sine = trace->sine;
-    trace->predicted = 0.0f;
-    if (jcal_gn_step(gn, &model, d, &trace->predicted) != JCAL_OK) {
-        return STEP_MAX_RAD;
-    }
-    const float length = jcal_gn_length(d, n);
-    if (length > STEP_MAX_RAD) {
-        for (unsigned i = 0u; i < n; ++i) {
-            d[i] *= STEP_MAX_RAD / length;
-        }
-        trace->predicted = jcal_gn_predict(&model, d);
-    }
-    jcal_two_dof_point_move(&trace->point, d);
+    const float length = jcal_two_dof_make_step(gn, &model, &trace->point, d, &trace->predicted);
     trace->sine += d[5];
     return length;
 }
@@ -78,12 +53,12 @@ static float advance(jcal_two_dof_trace_t *trace, const jcal_two_dof_rows_t *row
     jcal_gn_t gn = {trace->damping};
     if ((trace->steps > 0u) && (trace->predicted < 0.0f)) {
         const bool kept = jcal_gn_judge(&gn, trace->predicted, change);
-        if (!kept && (change > (HARMLESS_SHARE * sums->cost))) {
+        if (!kept && (change > (JCAL_TWO_DOF_HARMLESS_SHARE * sums->cost))) {
             trace->damping = gn.damping;
             trace->point = trace->from;
             trace->sine = trace->from_sine;
             trace->predicted = 0.0f;
-            return STEP_MAX_RAD;
+            return JCAL_TWO_DOF_STEP_MAX_RAD;
         }
         gn.damping = kept ? gn.damping : trace->damping;
     }
@@ -170,7 +145,7 @@ static void file_probe(jcal_two_dof_window_search_t *search, jcal_two_dof_verdic
         adopt(search, verdict, probe);
         return;
     }
-    const bool better = probe->cost < (search->best.cost - (BETTER * verdict->excess));
+    const bool better = probe->cost < (search->best.cost - (JCAL_TWO_DOF_BETTER * verdict->excess));
     const bool same = jcal_two_dof_is_near(&search->best.point, &probe->point, JCAL_TWO_DOF_SAME_COSINE);
     if (same && better) {
         refine(search);
@@ -188,9 +163,9 @@ static void file_probe(jcal_two_dof_window_search_t *search, jcal_two_dof_verdic
 static bool is_hopeless(const jcal_two_dof_window_search_t *search, const jcal_two_dof_window_sums_t *sums,
                         float excess)
 {
-    const float share = 1.0f + (HOPE * 2.0f * search->probe.predicted / (sums->cost + FLT_MIN));
-    return search->has_best && (search->probe.steps >= HOPELESS_STEPS) &&
-           ((sums->weighted * share) > (search->best.cost + (HOPELESS_GAP * excess)));
+    const float share = 1.0f + (JCAL_TWO_DOF_HOPE * 2.0f * search->probe.predicted / (sums->cost + FLT_MIN));
+    return search->has_best && (search->probe.steps >= JCAL_TWO_DOF_HOPELESS_STEPS) &&
+           ((sums->weighted * share) > (search->best.cost + (JCAL_TWO_DOF_HOPELESS_GAP * excess)));
 }
 
 /// One pass of the probe.
@@ -208,7 +183,7 @@ static void probe(jcal_two_dof_window_search_t *search, jcal_two_dof_verdict_t *
     trace->steps = (uint8_t)(trace->steps + 1u);
     const bool joined =
         search->has_best && jcal_two_dof_is_near(&search->best.point, &trace->point, JCAL_TWO_DOF_JOINED_COSINE);
-    if ((length < STEP_MIN_RAD) || (trace->steps >= PROBE_STEPS) || joined ||
+    if ((length < JCAL_TWO_DOF_STEP_MIN_RAD) || (trace->steps >= JCAL_TWO_DOF_PROBE_STEPS) || joined ||
         is_hopeless(search, &sums, verdict->excess)) {
         file_probe(search, verdict);
     }
@@ -222,7 +197,7 @@ static void follow_rival(jcal_two_dof_window_search_t *search, jcal_two_dof_verd
     follow(&search->rival, rows, &sums);
     if (jcal_two_dof_is_near(&search->best.point, &search->rival.point, JCAL_TWO_DOF_SAME_COSINE)) {
         search->has_rival = false;
-    } else if (search->rival.cost < (search->best.cost - (BETTER * verdict->excess))) {
+    } else if (search->rival.cost < (search->best.cost - (JCAL_TWO_DOF_BETTER * verdict->excess))) {
         adopt(search, verdict, &search->rival);
     } else {
         /* the second best it stays */

@@ -34,6 +34,7 @@ KEPT = "lib/two_dof/kept.c"
 WATCH = "lib/joint/watch.h"
 SLIP = "lib/hinge/slip.c"
 SIGN = "lib/joint/sign.h"
+HEAD = "lib/joint/head.c"
 WEIGH = "lib/hinge/weigh.c"
 WINDOW = "lib/hinge/window.c"
 TWO_ENGINE = "lib/two_dof/stream.c"
@@ -445,7 +446,7 @@ MUTATIONS = [
     (CRESULT, "out->acc_bias2_m_s2 = point->b2;", "out->acc_bias2_m_s2 = point->b1;", "bias of the other sensor in the result"),
     (CRESULT, "jcal_atan2(point->heading.im, point->heading.re)", "jcal_atan2(-point->heading.im, point->heading.re)",
      "sign of the heading offset"),
-    (CRESULT, "max_bound_m / jcal_max(bound_m, FLT_MIN)", "bound_m / jcal_max(max_bound_m, FLT_MIN)", "progress"),
+    (HEAD, "limit / jcal_max(bound, FLT_MIN)", "bound / jcal_max(limit, FLT_MIN)", "progress"),
     (CRESULT, "progress(out->uncertainty2_m,", "progress(out->uncertainty1_m,", "progress of sensor 2"),
     (CENTER, "(jcal_center_reading_s(&self->cfg) * noise * noise)", "(jcal_center_reading_s(&self->cfg) * noise)",
      "weight in the moments"),

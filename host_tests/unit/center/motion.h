@@ -155,37 +155,4 @@ static inline jcal_attitudes_t center_attitudes(const center_motion_t *m, uint32
     return out;
 }
 
-/* What a source may do for ever: orientations that are no number, of no length, or the same; readings that are; a clock far back. */
-enum { FAULT_NAN1, FAULT_NAN2, FAULT_LENGTH, FAULT_FROZEN1, FAULT_FROZEN2, FAULT_READINGS, FAULT_CLOCK, FAULTS };
-
-/* The k-th sample of a source that fails so since `last`. */
-static inline void center_failed(int fault, uint32_t last, const center_motion_t *m, jcal_pair_t *pair,
-                                 jcal_attitudes_t *attitudes)
-{
-    const jcal_attitudes_t before = center_attitudes(m, last, 0.5);
-    switch (fault) {
-    case FAULT_NAN1:
-        attitudes->q1.y = NAN;
-        break;
-    case FAULT_NAN2:
-        attitudes->q2.w = NAN;
-        break;
-    case FAULT_LENGTH:
-        attitudes->q2 = (jcal_quat_t){0.0f, 0.0f, 0.0f, 0.0f};
-        break;
-    case FAULT_FROZEN1:
-        attitudes->q1 = before.q1;
-        break;
-    case FAULT_FROZEN2:
-        attitudes->q2 = before.q2;
-        break;
-    case FAULT_READINGS:
-        pair->imu2 = center_sample(m, last).imu2;
-        break;
-    default:
-        pair->t_us = 1u;
-        break;
-    }
-}
-
 #endif /* JCAL_TEST_CENTER_MOTION_H */

@@ -6,6 +6,7 @@
 #include "jointcal/center.h"
 #include "jointcal/vec3.h"
 #include "math/sym.h"
+#include "unit/center/faults.h"
 #include "unit/center/motion.h"
 
 #include <string.h>
@@ -744,31 +745,27 @@ static void rejected_samples_are_counted_and_break_the_chain(void)
 #define FAULTS_TRIED ((int)FAULTS)
 #endif
 
+static void begin_oriented(void)
+{
+    config.method = JCAL_CENTER_LS;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
+}
+
+static void take_oriented(const jcal_pair_t *pair, const jcal_attitudes_t *attitudes)
+{
+    (void)jcal_center_push_oriented(&engine, pair, attitudes);
+    (void)jcal_center_step(&engine);
+}
+
+static jcal_center_result_t own_result(void)
+{
+    return result_of(&engine);
+}
+
 static void a_source_that_fails_is_not_ready_for_long(void)
 {
-    const center_motion_t m = center_lively(1);
-    const uint32_t last = (uint32_t)(30.0 * m.rate_hz), more = (uint32_t)(2.0 * m.rate_hz);
-    config.method = JCAL_CENTER_LS;
-    for (int fault = 0; fault < FAULTS_TRIED; ++fault) {
-        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
-        for (uint32_t k = 0; k <= (last + more); ++k) {
-            jcal_pair_t pair = center_sample(&m, k);
-            jcal_attitudes_t attitudes = center_attitudes(&m, k, 0.5);
-            if (k > last) {
-                center_failed(fault, last, &m, &pair, &attitudes);
-            }
-            (void)jcal_center_push_oriented(&engine, &pair, &attitudes);
-            (void)jcal_center_step(&engine);
-            if (k == last) {
-                TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
-            }
-        }
-        const jcal_center_result_t r = result_of(&engine);
-        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
-        TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, r.head.reason);
-        TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
-    }
+    const center_subject_t subject = {begin_oriented, take_oriented, own_result, 30.0, FAULTS_TRIED};
+    center_after_faults_it_is_not_ready(&subject);
 }
 
 static void what_was_never_prepared_does_nothing(void)

@@ -259,6 +259,21 @@ static void reset_forgets_the_data_and_keeps_the_config(void)
     assert_same_state(&fresh, &engine);
 }
 
+static void what_was_never_prepared_knows_nothing(void)
+{
+    const motion_t motion = motion_lively(16);
+    memset(&engine, 0, sizeof engine);
+    for (uint32_t k = 0; k < 200; ++k) {
+        const jcal_pair_t pair = motion_sample(&motion, k);
+        TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_hinge_update(&engine, &pair));
+    }
+    TEST_ASSERT_EQUAL_INT(JCAL_IDLE, jcal_hinge_step(&engine));
+    TEST_ASSERT_FALSE(result_of(&engine).has_axes);
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, result_of(&engine).head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_CONFIG, jcal_hinge_reset(&engine));
+    TEST_ASSERT_EQUAL_STRING("config", jcal_hinge_config_check(NULL));
+}
+
 static void the_state_fits_its_budget(void)
 {
     TEST_ASSERT_TRUE(sizeof(jcal_hinge_t) <= 2048u);
@@ -281,6 +296,7 @@ int main(void)
     RUN_TEST(a_copy_made_at_any_time_goes_on_to_the_same_bits);
     RUN_TEST(two_instances_side_by_side_do_not_touch_each_other);
     RUN_TEST(reset_forgets_the_data_and_keeps_the_config);
+    RUN_TEST(what_was_never_prepared_knows_nothing);
     RUN_TEST(the_state_fits_its_budget);
     return UNITY_END();
 }

@@ -198,6 +198,20 @@ static void null_pointers_are_refused_everywhere(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_window_selection(&engine, ids, &n, ids, NULL));
 }
 
+static void what_was_never_prepared_knows_nothing(void)
+{
+    const motion_t motion = motion_lively(16);
+    memset(&engine, 0, sizeof engine);
+    for (uint32_t k = 0; k < 200; ++k) {
+        const jcal_pair_t pair = motion_sample(&motion, k);
+        TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_hinge_window_update(&engine, &pair));
+    }
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_hinge_window_step(&engine));
+    TEST_ASSERT_FALSE(result_of(&engine).has_axes);
+    TEST_ASSERT_EQUAL_UINT(0, jcal_hinge_window_storage_bytes(NULL));
+    TEST_ASSERT_EQUAL_STRING("config", jcal_hinge_window_config_check(NULL));
+}
+
 static void selection_into_too_little_room_is_refused(void)
 {
     const motion_t motion = motion_lively(15);
@@ -326,6 +340,7 @@ int main(void)
     RUN_TEST(storage_that_is_too_small_or_not_aligned_is_refused);
     RUN_TEST(every_config_field_out_of_range_is_named);
     RUN_TEST(null_pointers_are_refused_everywhere);
+    RUN_TEST(what_was_never_prepared_knows_nothing);
     RUN_TEST(selection_into_too_little_room_is_refused);
     RUN_TEST(update_makes_room_in_a_full_inbox);
     RUN_TEST(an_axis_on_which_the_engines_disagree_is_weak_and_not_ready);

@@ -48,7 +48,7 @@ static void assert_refused(const float *m, size_t n)
 {
     float l[JCAL_SYM_SIZE(JCAL_CHOL_MAX)];
     float ratio = -7.0f;
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_SINGULAR, jcal_chol_factor(m, n, l, &ratio));
+    TEST_ASSERT_FALSE(jcal_chol_factor(m, n, l, &ratio));
     TEST_ASSERT_EQUAL_FLOAT(-7.0f, ratio);
 }
 
@@ -73,7 +73,7 @@ static void every_size_is_solved_to_rounding(void)
             for (size_t k = 0; k < n; ++k) {
                 b[k] = next_value(&state);
             }
-            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chol_factor(m, n, l, NULL));
+            TEST_ASSERT_TRUE(jcal_chol_factor(m, n, l, NULL));
             jcal_chol_solve(l, n, b, x);
             TEST_ASSERT_TRUE(residual(m, n, x, b) < 3e-6);
         }
@@ -87,7 +87,7 @@ static void every_size_is_inverted_to_rounding(void)
         float l[JCAL_SYM_SIZE(JCAL_CHOL_MAX)];
         float inverse[JCAL_SYM_SIZE(JCAL_CHOL_MAX)];
         random_spd(m, n, 31u + (uint32_t)n);
-        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chol_factor(m, n, l, NULL));
+        TEST_ASSERT_TRUE(jcal_chol_factor(m, n, l, NULL));
         jcal_chol_inverse(l, n, inverse);
         for (size_t j = 0; j < n; ++j) {
             float column[JCAL_CHOL_MAX];
@@ -108,9 +108,9 @@ static void factorisation_and_solution_work_in_place(void)
     float b[6] = {1.0f, -2.0f, 3.0f, -4.0f, 5.0f, -6.0f};
     float x[6];
     random_spd(m, 6, 5);
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chol_factor(m, 6, l, NULL));
+    TEST_ASSERT_TRUE(jcal_chol_factor(m, 6, l, NULL));
     jcal_chol_solve(l, 6, b, x);
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chol_factor(m, 6, m, NULL));
+    TEST_ASSERT_TRUE(jcal_chol_factor(m, 6, m, NULL));
     jcal_chol_solve(m, 6, b, b);
     TEST_ASSERT_EQUAL_MEMORY(l, m, sizeof l);
     TEST_ASSERT_EQUAL_MEMORY(x, b, sizeof x);
@@ -122,7 +122,7 @@ static void a_known_factor_is_found(void)
     const float expected[3] = {2.0f, 1.0f, 3.0f};
     float l[3];
     float ratio = 0.0f;
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chol_factor(m, 2, l, &ratio));
+    TEST_ASSERT_TRUE(jcal_chol_factor(m, 2, l, &ratio));
     TEST_ASSERT_EQUAL_FLOAT_ARRAY(expected, l, 3);
     TEST_ASSERT_EQUAL_FLOAT(0.9f, ratio);
 }
@@ -132,7 +132,7 @@ static void pivot_ratio_of_a_diagonal_matrix_is_one(void)
     const float m[6] = {1e-3f, 0.0f, 5.0f, 0.0f, 0.0f, 2.0f};
     float l[6];
     float ratio = 0.0f;
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chol_factor(m, 3, l, &ratio));
+    TEST_ASSERT_TRUE(jcal_chol_factor(m, 3, l, &ratio));
     TEST_ASSERT_EQUAL_FLOAT(1.0f, ratio);
 }
 
@@ -143,7 +143,7 @@ static void pivot_ratio_shrinks_as_an_unknown_follows_from_another(void)
         const float m[3] = {1.0f, rho, 1.0f};
         float l[3];
         float ratio = 0.0f;
-        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chol_factor(m, 2, l, &ratio));
+        TEST_ASSERT_TRUE(jcal_chol_factor(m, 2, l, &ratio));
         TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.0f - (rho * rho), ratio);
         TEST_ASSERT_TRUE(ratio < last);
         last = ratio;
@@ -168,7 +168,7 @@ static void the_pivot_test_is_relative_to_the_scale(void)
         const float good[3] = {s, 0.999f * s, s};
         const float bad[3] = {s, s, s * (1.0f + (2.0f * FLT_EPSILON))};
         float l[3];
-        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chol_factor(good, 2, l, NULL));
+        TEST_ASSERT_TRUE(jcal_chol_factor(good, 2, l, NULL));
         assert_refused(bad, 2);
     }
 }
@@ -180,7 +180,7 @@ static void a_pivot_far_below_the_largest_diagonal_element_is_refused(void)
     const float above[3] = {1.0f, 0.0f, 1.01f * tolerance};
     float l[3];
     assert_refused(below, 2);
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_chol_factor(above, 2, l, NULL));
+    TEST_ASSERT_TRUE(jcal_chol_factor(above, 2, l, NULL));
 }
 
 static void a_matrix_without_rank_is_refused(void)
@@ -228,10 +228,10 @@ static void wrong_arguments_are_named_and_change_nothing(void)
 {
     const float m[1] = {1.0f};
     float l[1] = {-5.0f};
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chol_factor(NULL, 1, l, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chol_factor(m, 1, NULL, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chol_factor(m, 0, l, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_chol_factor(m, JCAL_CHOL_MAX + 1u, l, NULL));
+    TEST_ASSERT_FALSE(jcal_chol_factor(NULL, 1, l, NULL));
+    TEST_ASSERT_FALSE(jcal_chol_factor(m, 1, NULL, NULL));
+    TEST_ASSERT_FALSE(jcal_chol_factor(m, 0, l, NULL));
+    TEST_ASSERT_FALSE(jcal_chol_factor(m, JCAL_CHOL_MAX + 1u, l, NULL));
     TEST_ASSERT_EQUAL_FLOAT(-5.0f, l[0]);
 }
 

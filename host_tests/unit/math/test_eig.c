@@ -69,7 +69,7 @@ static void random_matrices_of_every_size_are_decomposed(void)
             float values[JCAL_EIG_MAX];
             float vectors[JCAL_EIG_MAX * JCAL_EIG_MAX];
             random_symmetric(m, n, seed);
-            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_eig_symmetric(m, n, values, vectors));
+            TEST_ASSERT_TRUE(jcal_eig_symmetric(m, n, values, vectors));
             assert_eigen(m, n, values, vectors);
         }
     }
@@ -82,7 +82,7 @@ static void a_diagonal_matrix_is_sorted(void)
     const float expected_vectors[9] = {0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 1.0f, 0.0f, 0.0f};
     float values[3];
     float vectors[9];
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_eig_symmetric(m, 3, values, vectors));
+    TEST_ASSERT_TRUE(jcal_eig_symmetric(m, 3, values, vectors));
     TEST_ASSERT_EQUAL_FLOAT_ARRAY(expected_values, values, 3);
     TEST_ASSERT_EQUAL_FLOAT_ARRAY(expected_vectors, vectors, 9);
 }
@@ -95,7 +95,7 @@ static void equal_eigenvalues_still_give_an_orthonormal_basis(void)
     const float v[6] = {1.0f, -1.0f, 1.0f, 1.0f, -1.0f, 1.0f};
     jcal_sym_zero(m, 6);
     jcal_sym_rank1(m, 6, v, 1.0f);
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_eig_symmetric(m, 6, values, vectors));
+    TEST_ASSERT_TRUE(jcal_eig_symmetric(m, 6, values, vectors));
     assert_eigen(m, 6, values, vectors);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 6.0f, values[0]);
 }
@@ -105,7 +105,7 @@ static void very_unequal_diagonal_elements_do_not_overflow(void)
     const float m[3] = {1e30f, 1e-5f, 1e-30f};
     float values[2];
     float vectors[4];
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_eig_symmetric(m, 2, values, vectors));
+    TEST_ASSERT_TRUE(jcal_eig_symmetric(m, 2, values, vectors));
     TEST_ASSERT_EQUAL_FLOAT(1e30f, values[0]);
     TEST_ASSERT_EQUAL_FLOAT(1.0f, vectors[0]);
     TEST_ASSERT_EQUAL_FLOAT(1.0f, vectors[3]);
@@ -116,7 +116,7 @@ static void the_largest_component_of_an_eigenvector_is_positive(void)
     const float m[3] = {1.0f, -2.0f, 5.0f};
     float values[2];
     float vectors[4];
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_eig_symmetric(m, 2, values, vectors));
+    TEST_ASSERT_TRUE(jcal_eig_symmetric(m, 2, values, vectors));
     TEST_ASSERT_TRUE(vectors[1] > fabsf(vectors[0]));
     TEST_ASSERT_TRUE(vectors[2] > fabsf(vectors[3]));
 }
@@ -130,15 +130,15 @@ static void nan_infinity_and_wrong_arguments_leave_the_outputs_untouched(void)
         for (size_t b = 0; b < 3; ++b) {
             float m[6] = {1.0f, 0.5f, 1.0f, 0.5f, 0.5f, 1.0f};
             m[k] = bad[b];
-            TEST_ASSERT_EQUAL_INT(JCAL_ERR_SINGULAR, jcal_eig_symmetric(m, 3, values, vectors));
+            TEST_ASSERT_FALSE(jcal_eig_symmetric(m, 3, values, vectors));
         }
     }
     const float good[1] = {1.0f};
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_eig_symmetric(NULL, 1, values, vectors));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_eig_symmetric(good, 1, NULL, vectors));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_eig_symmetric(good, 1, values, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_eig_symmetric(good, 0, values, vectors));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_eig_symmetric(good, JCAL_EIG_MAX + 1u, values, vectors));
+    TEST_ASSERT_FALSE(jcal_eig_symmetric(NULL, 1, values, vectors));
+    TEST_ASSERT_FALSE(jcal_eig_symmetric(good, 1, NULL, vectors));
+    TEST_ASSERT_FALSE(jcal_eig_symmetric(good, 1, values, NULL));
+    TEST_ASSERT_FALSE(jcal_eig_symmetric(good, 0, values, vectors));
+    TEST_ASSERT_FALSE(jcal_eig_symmetric(good, JCAL_EIG_MAX + 1u, values, vectors));
     TEST_ASSERT_EQUAL_FLOAT(-5.0f, values[0]);
     TEST_ASSERT_EQUAL_FLOAT(-5.0f, vectors[0]);
 }

@@ -25,7 +25,7 @@ static void without_damping_the_step_is_the_newton_step(void)
     jcal_gn_t gn = {0.0f};
     float d[2];
     float predicted = 1.0f;
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_gn_step(&gn, &model_2, d, &predicted));
+    TEST_ASSERT_TRUE(jcal_gn_step(&gn, &model_2, d, &predicted));
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, -5.0f / 11.0f, d[0]);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 9.0f / 11.0f, d[1]);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, -23.0f / 22.0f, predicted);
@@ -38,7 +38,7 @@ static void more_damping_makes_a_shorter_step_downhill(void)
         jcal_gn_t gn = {damping};
         float d[2];
         float predicted = 1.0f;
-        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_gn_step(&gn, &model_2, d, &predicted));
+        TEST_ASSERT_TRUE(jcal_gn_step(&gn, &model_2, d, &predicted));
         TEST_ASSERT_TRUE(jcal_gn_length(d, 2) < last);
         TEST_ASSERT_TRUE(predicted < 0.0f);
         last = jcal_gn_length(d, 2);
@@ -60,7 +60,7 @@ static void an_open_direction_is_solved_after_the_damping_has_risen(void)
     jcal_gn_t gn = {JCAL_GN_DAMPING_MIN};
     float d[3] = {-5.0f, -5.0f, -5.0f};
     int calls = 1;
-    while ((jcal_gn_step(&gn, &model, d, NULL) != JCAL_OK) && (calls < 10)) {
+    while ((!jcal_gn_step(&gn, &model, d, NULL)) && (calls < 10)) {
         TEST_ASSERT_EQUAL_FLOAT(-5.0f, d[0]);
         ++calls;
     }
@@ -81,7 +81,7 @@ static void nan_zero_and_negative_matrices_give_no_step(void)
         jcal_gn_t gn = jcal_gn_begin();
         float d[2] = {-5.0f, -5.0f};
         float predicted = -7.0f;
-        TEST_ASSERT_EQUAL_INT(JCAL_ERR_SINGULAR, jcal_gn_step(&gn, &models[k], d, &predicted));
+        TEST_ASSERT_FALSE(jcal_gn_step(&gn, &models[k], d, &predicted));
         TEST_ASSERT_EQUAL_FLOAT(-5.0f, d[0]);
         TEST_ASSERT_EQUAL_FLOAT(-7.0f, predicted);
         TEST_ASSERT_TRUE(gn.damping > JCAL_GN_DAMPING_START);
@@ -94,11 +94,11 @@ static void wrong_arguments_are_named(void)
     float d[2];
     const jcal_gn_model_t none = {0, gradient_2, matrix_2};
     const jcal_gn_model_t many = {JCAL_CHOL_MAX + 1u, gradient_2, matrix_2};
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_gn_step(NULL, &model_2, d, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_gn_step(&gn, NULL, d, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_gn_step(&gn, &model_2, NULL, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_gn_step(&gn, &none, d, NULL));
-    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_gn_step(&gn, &many, d, NULL));
+    TEST_ASSERT_FALSE(jcal_gn_step(NULL, &model_2, d, NULL));
+    TEST_ASSERT_FALSE(jcal_gn_step(&gn, NULL, d, NULL));
+    TEST_ASSERT_FALSE(jcal_gn_step(&gn, &model_2, NULL, NULL));
+    TEST_ASSERT_FALSE(jcal_gn_step(&gn, &none, d, NULL));
+    TEST_ASSERT_FALSE(jcal_gn_step(&gn, &many, d, NULL));
 }
 
 static void judge_keeps_what_lowers_the_cost_and_adapts_the_damping(void)
@@ -177,7 +177,7 @@ static void least_squares_on_the_sphere_converges_from_everywhere(void)
             const jcal_gn_model_t model = {2, gradient, matrix};
             float d[2];
             float predicted = 0.0f;
-            if (jcal_gn_step(&gn, &model, d, &predicted) != JCAL_OK) {
+            if (!jcal_gn_step(&gn, &model, d, &predicted)) {
                 continue;
             }
             jcal_vec3_t trial = j;

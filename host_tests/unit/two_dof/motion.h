@@ -76,30 +76,4 @@ static inline sim_t tied(int seed)
     return sim;
 }
 
-/* What a source of orientations may do for ever: what is not a number, no length, the same value, a clock that stands far back, holes. */
-enum { POSE_FAULT_NAN, POSE_FAULT_LENGTH, POSE_FAULT_FROZEN, POSE_FAULT_CLOCK, POSE_FAULT_GAPS, POSE_FAULTS };
-
-/* The k-th pair after `good` of a source that fails so. */
-static inline jcal_orientation_pair_t failed(int fault, const sim_t *sim, uint32_t last, uint32_t k)
-{
-    jcal_orientation_pair_t pair = sample_of(sim, (fault == POSE_FAULT_GAPS) ? (last + (40u * k)) : (last + k));
-    switch (fault) {
-    case POSE_FAULT_NAN:
-        pair.q2.w = NAN;
-        break;
-    case POSE_FAULT_LENGTH:
-        pair.q1 = (jcal_quat_t){0.0f, 0.0f, 0.0f, 0.0f};
-        break;
-    case POSE_FAULT_FROZEN:
-        pair.q1 = sample_of(sim, last).q1;
-        break;
-    case POSE_FAULT_CLOCK:
-        pair.t_us = 1u;
-        break;
-    default:
-        break;
-    }
-    return pair;
-}
-
 #endif /* JCAL_TEST_TWO_DOF_MOTION_H */

@@ -4,6 +4,7 @@
 #include "jointcal/quat.h"
 #include "jointcal/two_dof.h"
 #include "unit/two_dof/double.h"
+#include "unit/two_dof/faults.h"
 #include "unit/two_dof/motion.h"
 
 #include <string.h>
@@ -476,25 +477,25 @@ static void no_orientation_is_lost_where_samples_become_rarer(void)
     TEST_ASSERT_TRUE(gain[1] > 1.5f * gain[2]); /* what was left over, and its own */
 }
 
+static jcal_status_t take(const jcal_orientation_pair_t *pair)
+{
+    return jcal_two_dof_update(&engine, pair);
+}
+
+static jcal_two_dof_result_t own_result(void)
+{
+    return result_of(&engine);
+}
+
 static void a_source_that_fails_is_not_ready_for_long(void)
 {
     const sim_t sim = lively(2);
-    const uint32_t last = 30u * RATE_HZ;
+    const two_dof_subject_t subject = {take, own_result, 30u * RATE_HZ};
     for (int fault = 0; fault < POSE_FAULTS; ++fault) {
         setUp();
-        feed(&engine, &sim, 0, last + 1u);
-        TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
-        for (uint32_t k = 1; k <= 2u * RATE_HZ; ++k) {
-            const jcal_orientation_pair_t pair = failed(fault, &sim, last, k);
-            TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_two_dof_update(&engine, &pair));
-        }
-        const jcal_two_dof_result_t r = result_of(&engine);
-        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
-        TEST_ASSERT_EQUAL_INT((fault == POSE_FAULT_GAPS) ? JCAL_REASON_RATE_TOO_LOW : JCAL_REASON_BAD_SAMPLES,
-                              r.head.reason);
-        TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
-        const uint32_t again = last + ((fault == POSE_FAULT_GAPS) ? (80u * RATE_HZ) : (2u * RATE_HZ));
+        feed(&engine, &sim, 0, subject.last + 1u);
+        two_dof_fault_is_complained_of(&subject, &sim, fault);
+        const uint32_t again = subject.last + ((fault == POSE_FAULT_GAPS) ? (80u * RATE_HZ) : (2u * RATE_HZ));
         feed(&engine, &sim, again + 1u, again + (8u * RATE_HZ)); /* the axes were not forgotten */
         TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
     }

@@ -3,6 +3,7 @@
 /// Tests of jointcal/two_dof_window.h on simulated joints, and of its Jacobians against finite differences in double precision.
 #include "two_dof/window_cost.h"
 #include "unit/two_dof/double.h"
+#include "unit/two_dof/faults.h"
 #include "unit/two_dof/window_fixture.h"
 
 #ifdef JCAL_TEST_SHORT
@@ -213,24 +214,24 @@ static void sensors_that_share_no_joint_are_never_ready(void)
     }
 }
 
+static jcal_status_t take(const jcal_orientation_pair_t *pair)
+{
+    return jcal_two_dof_window_update(&engine, pair);
+}
+
+static jcal_two_dof_result_t own_result(void)
+{
+    return result_of(&engine);
+}
+
 static void a_source_that_fails_is_not_ready_for_long(void)
 {
     const sim_t sim = lively(2);
-    const uint32_t last = 40u * RATE_HZ;
+    const two_dof_subject_t subject = {take, own_result, 40u * RATE_HZ};
     for (int fault = 0; fault < POSE_FAULTS; ++fault) {
         setUp();
-        feed(&engine, &sim, 0, last + 1u);
-        TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);
-        for (uint32_t k = 1; k <= 2u * RATE_HZ; ++k) {
-            const jcal_orientation_pair_t pair = failed(fault, &sim, last, k);
-            TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_two_dof_window_update(&engine, &pair));
-        }
-        const jcal_two_dof_result_t r = result_of(&engine);
-        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
-        TEST_ASSERT_EQUAL_INT((fault == POSE_FAULT_GAPS) ? JCAL_REASON_RATE_TOO_LOW : JCAL_REASON_BAD_SAMPLES,
-                              r.head.reason);
-        TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, r.head.hint);
-        TEST_ASSERT_NOT_EQUAL_INT(JCAL_WEAK_NONE, r.head.weak);
+        feed(&engine, &sim, 0, subject.last + 1u);
+        two_dof_fault_is_complained_of(&subject, &sim, fault);
     }
 }
 

@@ -4,13 +4,12 @@
 #include "input/calibration_file.h"
 #include "options/values.h"
 #include "run/calibrate.h"
+#include "units.h"
 
 #include "jointcal/jointcal.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Samples that the window engine keeps a second, about. */
 #define ROWS_PER_S 50.0f
@@ -153,30 +152,29 @@ static const command_line_t LINE = {
 /* ---- Engines ---- */
 
 typedef struct {
-    jcal_engine_t kind;
+    calibrate_state_t base;
     union {
         jcal_center_t stream;
         jcal_center_window_t window;
     } engine;
-    void *storage; /* of the window engine */
-    bool oriented;
     bool is_hinge; /* its axes are known */
     jcal_center_result_t result;
 } center_run_t;
 
-/* False if memory ran out. The config has been checked before. */
-static bool start(center_run_t *run, jcal_engine_t kind, const center_options_t *options)
+static bool start(void *self, const void *own)
 {
+    center_run_t *run = self;
+    const center_options_t *options = own;
     const jcal_center_window_config_t *config = &options->config;
-    run->kind = kind;
-    run->oriented = config->center.method == JCAL_CENTER_LS;
+    run->base.oriented = config->center.method == JCAL_CENTER_LS;
     run->is_hinge = options->calibration != NULL;
-    if (kind == JCAL_ENGINE_STREAM) {
+    if (run->base.engine == JCAL_ENGINE_STREAM) {
         return jcal_center_init(&run->engine.stream, &config->center) == JCAL_OK;
     }
     const size_t bytes = jcal_center_window_storage_bytes(config);
-    run->storage = malloc(bytes);
-    return run->storage != NULL && jcal_center_window_init(&run->engine.window, config, run->storage, bytes) == JCAL_OK;
+    run->base.storage = malloc(bytes);
+    return run->base.storage != NULL &&
+           jcal_center_window_init(&run->engine.window, config, run->base.storage, bytes) == JCAL_OK;
 }
 
 static bool push(void *self, const recording_row_t *row, uint64_t t_us)
@@ -186,29 +184,29 @@ static bool push(void *self, const recording_row_t *row, uint64_t t_us)
     const jcal_attitudes_t attitudes = {row->q1, row->q2};
     jcal_center_t *stream = &run->engine.stream;
     jcal_center_window_t *window = &run->engine.window;
-    if (run->kind == JCAL_ENGINE_STREAM) {
+    if (run->base.engine == JCAL_ENGINE_STREAM) {
         const jcal_status_t status =
-            run->oriented ? jcal_center_push_oriented(stream, &pair, &attitudes) : jcal_center_push(stream, &pair);
+            run->base.oriented ? jcal_center_push_oriented(stream, &pair, &attitudes) : jcal_center_push(stream, &pair);
         return status >= JCAL_OK && jcal_center_step(stream) >= JCAL_OK;
     }
-    const jcal_status_t status = run->oriented ? jcal_center_window_push_oriented(window, &pair, &attitudes)
-                                               : jcal_center_window_push(window, &pair);
+    const jcal_status_t status = run->base.oriented ? jcal_center_window_push_oriented(window, &pair, &attitudes)
+                                                    : jcal_center_window_push(window, &pair);
     return status >= JCAL_OK && jcal_center_window_step(window) >= JCAL_OK;
 }
 
 static void reset(void *self)
 {
     center_run_t *run = self;
-    (void)((run->kind == JCAL_ENGINE_STREAM) ? jcal_center_reset(&run->engine.stream)
-                                             : jcal_center_window_reset(&run->engine.window));
+    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_center_reset(&run->engine.stream)
+                                                    : jcal_center_window_reset(&run->engine.window));
 }
 
 static const jcal_head_t *get(void *self)
 {
     center_run_t *run = self;
     /* The only error is a null pointer. */
-    (void)((run->kind == JCAL_ENGINE_STREAM) ? jcal_center_get(&run->engine.stream, &run->result)
-                                             : jcal_center_window_get(&run->engine.window, &run->result));
+    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_center_get(&run->engine.stream, &run->result)
+                                                    : jcal_center_window_get(&run->engine.window, &run->result));
     return &run->result.head;
 }
 
@@ -257,9 +255,10 @@ static void write_json(const void *self, json_t *json)
     report_json_vector(json, "weakest_direction1", is_known(result->weakest_direction1), result->weakest_direction1);
     report_json_vector(json, "weakest_direction2", is_known(result->weakest_direction2), result->weakest_direction2);
     write_bounds(json, "uncertainty_weakest_m", result->uncertainty_weakest1_m, result->uncertainty_weakest2_m);
-    report_json_vector(json, "acc_bias1_m_s2", known && !run->oriented, result->acc_bias1_m_s2);
-    report_json_vector(json, "acc_bias2_m_s2", known && !run->oriented, result->acc_bias2_m_s2);
-    json_number(json, "heading_offset_deg", (known && run->oriented) ? DEG_PER_RAD * result->heading_offset_rad : NAN);
+    report_json_vector(json, "acc_bias1_m_s2", known && !run->base.oriented, result->acc_bias1_m_s2);
+    report_json_vector(json, "acc_bias2_m_s2", known && !run->base.oriented, result->acc_bias2_m_s2);
+    json_number(json, "heading_offset_deg",
+                (known && run->base.oriented) ? DEG_PER_RAD * result->heading_offset_rad : NAN);
     json_number(json, "misfit", (known && result->misfit > 0.0f) ? result->misfit : NAN);
     if (result->head.engine == JCAL_ENGINE_WINDOW) {
         json_word(json, "paper_accepted", NULL); /* the paper has no test of that kind */
@@ -297,7 +296,7 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
         report_print_words(file, "along the axis",
                            "unknown: any point of a hinge's axis will do, this is the one next to both sensors");
     }
-    if (run->oriented && result->has_center) {
+    if (run->base.oriented && result->has_center) {
         (void)fprintf(file, "  %-18s %8.1f deg\n", "heading offset",
                       (double)(DEG_PER_RAD * result->heading_offset_rad));
     }
@@ -310,6 +309,8 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 
 static const calibrate_joint_t CENTER = {.words = &WORDS,
                                          .uses_readings = true,
+                                         .size = sizeof(center_run_t),
+                                         .start = start,
                                          .push = push,
                                          .reset = reset,
                                          .get = get,
@@ -326,16 +327,5 @@ int center_command(int argc, char **argv)
                           &options.config.center.hinge_axis2)) {
         return EXIT_INPUT;
     }
-    center_run_t *run = calloc(1, sizeof *run);
-    exit_status_t status = EXIT_TROUBLE;
-    if (run == NULL || !start(run, common.engine, &options)) {
-        complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
-    } else {
-        status = calibrate(&common, &CENTER, run, run->oriented);
-    }
-    if (run != NULL) {
-        free(run->storage);
-    }
-    free(run);
-    return (int)status;
+    return (int)calibrate(&common, &CENTER, &options);
 }

@@ -4,13 +4,11 @@
 #include "input/calibration_file.h"
 #include "options/values.h"
 #include "run/calibrate.h"
+#include "units.h"
 
 #include "jointcal/jointcal.h"
 
-#include <errno.h>
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 /* ---- Options ---- */
 
@@ -101,17 +99,25 @@ static const command_line_t LINE = {
 /* ---- The engine ---- */
 
 typedef struct {
+    calibrate_state_t base;
     jcal_chain_t chain;
-    bool oriented;
     jcal_chain_result_t result;
 } chain_run_t;
+
+static bool start(void *self, const void *options)
+{
+    chain_run_t *run = self;
+    const jcal_chain_config_t *config = &((const chain_options_t *)options)->config;
+    run->base.oriented = config->center.method == JCAL_CENTER_LS;
+    return jcal_chain_init(&run->chain, config) == JCAL_OK;
+}
 
 static bool push(void *self, const recording_row_t *row, uint64_t t_us)
 {
     chain_run_t *run = self;
     const jcal_triple_t triple = {t_us, row->imu1, row->imu2, row->imu3};
     const jcal_triple_attitudes_t attitudes = {row->q1, row->q2, row->q3};
-    return jcal_chain_push(&run->chain, &triple, run->oriented ? &attitudes : NULL) >= JCAL_OK &&
+    return jcal_chain_push(&run->chain, &triple, run->base.oriented ? &attitudes : NULL) >= JCAL_OK &&
            jcal_chain_step(&run->chain) >= JCAL_OK;
 }
 
@@ -202,6 +208,8 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 static const calibrate_joint_t CHAIN = {.words = &WORDS,
                                         .third = true,
                                         .uses_readings = true,
+                                        .size = sizeof(chain_run_t),
+                                        .start = start,
                                         .push = push,
                                         .reset = reset,
                                         .get = get,
@@ -217,14 +225,5 @@ int chain_command(int argc, char **argv)
     if (!calibration_axes(options.calibration, &options.config.knee_axis2, &options.config.knee_axis3)) {
         return EXIT_INPUT;
     }
-    chain_run_t *run = calloc(1, sizeof *run);
-    exit_status_t status = EXIT_TROUBLE;
-    if (run == NULL || jcal_chain_init(&run->chain, &options.config) != JCAL_OK) {
-        complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
-    } else {
-        run->oriented = options.config.center.method == JCAL_CENTER_LS;
-        status = calibrate(&common, &CHAIN, run, run->oriented);
-    }
-    free(run);
-    return (int)status;
+    return (int)calibrate(&common, &CHAIN, &options);
 }

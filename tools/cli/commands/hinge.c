@@ -4,13 +4,12 @@
 
 #include "commands/commands.h"
 #include "run/calibrate.h"
+#include "units.h"
 
 #include "jointcal/jointcal.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* ---- Options ---- */
 
@@ -63,42 +62,41 @@ static const command_line_t LINE = {
 /* ---- Engines ---- */
 
 typedef struct {
-    jcal_engine_t kind;
-    bool sign_is_chosen; /* by --axis1-toward */
+    calibrate_state_t base;
     union {
         jcal_hinge_t stream;
         jcal_hinge_window_t window;
     } engine;
-    void *storage; /* of the window engine */
     jcal_hinge_result_t result;
 } hinge_run_t;
 
-/* False if memory ran out. The config has been checked before. */
-static bool start(hinge_run_t *run, jcal_engine_t kind, const jcal_hinge_window_config_t *config)
+static bool start(void *self, const void *options)
 {
-    run->kind = kind;
-    if (kind == JCAL_ENGINE_STREAM) {
+    hinge_run_t *run = self;
+    const jcal_hinge_window_config_t *config = options;
+    if (run->base.engine == JCAL_ENGINE_STREAM) {
         return jcal_hinge_init(&run->engine.stream, &config->hinge) == JCAL_OK;
     }
     const size_t bytes = jcal_hinge_window_storage_bytes(config);
-    run->storage = malloc(bytes);
-    return run->storage != NULL && jcal_hinge_window_init(&run->engine.window, config, run->storage, bytes) == JCAL_OK;
+    run->base.storage = malloc(bytes);
+    return run->base.storage != NULL &&
+           jcal_hinge_window_init(&run->engine.window, config, run->base.storage, bytes) == JCAL_OK;
 }
 
 static bool push(void *self, const recording_row_t *row, uint64_t t_us)
 {
     hinge_run_t *run = self;
     const jcal_pair_t pair = {t_us, row->imu1, row->imu2};
-    return ((run->kind == JCAL_ENGINE_STREAM) ? jcal_hinge_update(&run->engine.stream, &pair)
-                                              : jcal_hinge_window_update(&run->engine.window, &pair)) >= JCAL_OK;
+    return ((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_hinge_update(&run->engine.stream, &pair)
+                                                     : jcal_hinge_window_update(&run->engine.window, &pair)) >= JCAL_OK;
 }
 
 static const jcal_head_t *get(void *self)
 {
     hinge_run_t *run = self;
     /* The only error is a null pointer. */
-    (void)((run->kind == JCAL_ENGINE_STREAM) ? jcal_hinge_get(&run->engine.stream, &run->result)
-                                             : jcal_hinge_window_get(&run->engine.window, &run->result));
+    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_hinge_get(&run->engine.stream, &run->result)
+                                                    : jcal_hinge_window_get(&run->engine.window, &run->result));
     return &run->result.head;
 }
 
@@ -116,34 +114,24 @@ const report_words_t HINGE_WORDS = {
     .unknown = BOUND_UNKNOWN_RAD,
 };
 
-static report_axes_t axes(const jcal_hinge_result_t *result)
+static report_axes_t axes_of(const jcal_hinge_result_t *result)
 {
     return (report_axes_t){result->has_axes, result->axis1, result->axis2, result->uncertainty1_rad,
                            result->uncertainty2_rad};
 }
 
-static report_bounds_t bounds(const void *self)
+static report_axes_t axes(const void *self)
 {
-    const jcal_hinge_result_t *result = &((const hinge_run_t *)self)->result;
-    return (report_bounds_t){result->has_axes, result->uncertainty1_rad, result->uncertainty2_rad};
+    return axes_of(&((const hinge_run_t *)self)->result);
 }
 
 void hinge_write_keys(json_t *json, const jcal_hinge_result_t *result)
 {
-    const report_axes_t found = axes(result);
+    const report_axes_t found = axes_of(result);
     report_json_axes(json, &found);
     json_number(json, "sign_margin", (result->sign_margin > 0.0f) ? result->sign_margin : NAN);
     if (result->head.engine == JCAL_ENGINE_WINDOW) {
         json_bool(json, "paper_accepted", result->paper_accepted);
-    }
-}
-
-static void advise(const void *self, check_findings_t *findings)
-{
-    const hinge_run_t *run = self;
-    const report_axes_t found = axes(&run->result);
-    if (!run->sign_is_chosen) {
-        report_advise_sign(&found, findings);
     }
 }
 
@@ -165,12 +153,12 @@ static void print_pairing(FILE *file, float margin)
 static void print_summary(const void *self, FILE *file, const report_t *report)
 {
     const hinge_run_t *run = self;
-    const report_axes_t found = axes(&run->result);
+    const report_axes_t found = axes(self);
     report_print_head(file, report);
     report_print_axes(file, &found);
     print_pairing(file, run->result.sign_margin);
     report_print_state(file, report);
-    if (run->kind == JCAL_ENGINE_WINDOW) {
+    if (run->base.engine == JCAL_ENGINE_WINDOW) {
         report_print_words(file, "paper's test", run->result.paper_accepted ? "accepted" : "not accepted");
     }
     report_print_exit(file, report);
@@ -180,10 +168,11 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 
 static const calibrate_joint_t HINGE = {.words = &HINGE_WORDS,
                                         .uses_readings = true,
+                                        .size = sizeof(hinge_run_t),
+                                        .start = start,
                                         .push = push,
                                         .get = get,
-                                        .bounds = bounds,
-                                        .advise = advise,
+                                        .axes = axes,
                                         .write_json = write_json,
                                         .print_summary = print_summary};
 
@@ -192,18 +181,5 @@ int hinge_command(int argc, char **argv)
     common_options_t common = {0};
     jcal_hinge_window_config_t config = jcal_hinge_window_config_default();
     common_parse(&LINE, argc, argv, &common, &config);
-    hinge_run_t *run = calloc(1, sizeof *run);
-    exit_status_t status = EXIT_TROUBLE;
-    if (run == NULL || !start(run, common.engine, &config)) {
-        complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
-    } else {
-        const jcal_vec3_t toward = common.axis1_toward;
-        run->sign_is_chosen = toward.x != 0.0f || toward.y != 0.0f || toward.z != 0.0f;
-        status = calibrate(&common, &HINGE, run, false);
-    }
-    if (run != NULL) {
-        free(run->storage);
-    }
-    free(run);
-    return (int)status;
+    return (int)calibrate(&common, &HINGE, &config);
 }

@@ -7,6 +7,7 @@
 #include "output/report.h"
 #include "run/hub_session.h"
 #include "run/reading.h"
+#include "units.h"
 
 #include "jointcal/jointcal.h"
 

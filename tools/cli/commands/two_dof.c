@@ -5,13 +5,12 @@
 #include "commands/commands.h"
 #include "options/values.h"
 #include "run/calibrate.h"
+#include "units.h"
 
 #include "jointcal/jointcal.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Samples that the window engine keeps a second. */
 #define ROWS_PER_S 20.0f
@@ -137,50 +136,50 @@ static const command_line_t LINE = {
 /* ---- Engines ---- */
 
 typedef struct {
-    jcal_engine_t kind;
-    bool sign_is_chosen; /* by --axis1-toward */
+    calibrate_state_t base;
     union {
         jcal_two_dof_t stream;
         jcal_two_dof_window_t window;
     } engine;
-    void *storage; /* of the window engine */
     jcal_two_dof_result_t result;
 } two_dof_run_t;
 
-/* False if memory ran out. The config has been checked before. */
-static bool start(two_dof_run_t *run, jcal_engine_t kind, const jcal_two_dof_window_config_t *config)
+static bool start(void *self, const void *options)
 {
-    run->kind = kind;
-    if (kind == JCAL_ENGINE_STREAM) {
+    two_dof_run_t *run = self;
+    const jcal_two_dof_window_config_t *config = &((const two_dof_options_t *)options)->config;
+    run->base.oriented = true;
+    if (run->base.engine == JCAL_ENGINE_STREAM) {
         return jcal_two_dof_init(&run->engine.stream, &config->two_dof) == JCAL_OK;
     }
     const size_t bytes = jcal_two_dof_window_storage_bytes(config);
-    run->storage = malloc(bytes);
-    return run->storage != NULL &&
-           jcal_two_dof_window_init(&run->engine.window, config, run->storage, bytes) == JCAL_OK;
+    run->base.storage = malloc(bytes);
+    return run->base.storage != NULL &&
+           jcal_two_dof_window_init(&run->engine.window, config, run->base.storage, bytes) == JCAL_OK;
 }
 
 static bool push(void *self, const recording_row_t *row, uint64_t t_us)
 {
     two_dof_run_t *run = self;
     const jcal_orientation_pair_t pair = {t_us, row->q1, row->q2};
-    return ((run->kind == JCAL_ENGINE_STREAM) ? jcal_two_dof_update(&run->engine.stream, &pair)
-                                              : jcal_two_dof_window_update(&run->engine.window, &pair)) >= JCAL_OK;
+    return ((run->base.engine == JCAL_ENGINE_STREAM)
+                ? jcal_two_dof_update(&run->engine.stream, &pair)
+                : jcal_two_dof_window_update(&run->engine.window, &pair)) >= JCAL_OK;
 }
 
 static void reset(void *self)
 {
     two_dof_run_t *run = self;
-    (void)((run->kind == JCAL_ENGINE_STREAM) ? jcal_two_dof_reset(&run->engine.stream)
-                                             : jcal_two_dof_window_reset(&run->engine.window));
+    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_two_dof_reset(&run->engine.stream)
+                                                    : jcal_two_dof_window_reset(&run->engine.window));
 }
 
 static const jcal_head_t *get(void *self)
 {
     two_dof_run_t *run = self;
     /* The only error is a null pointer. */
-    (void)((run->kind == JCAL_ENGINE_STREAM) ? jcal_two_dof_get(&run->engine.stream, &run->result)
-                                             : jcal_two_dof_window_get(&run->engine.window, &run->result));
+    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_two_dof_get(&run->engine.stream, &run->result)
+                                                    : jcal_two_dof_window_get(&run->engine.window, &run->result));
     return &run->result.head;
 }
 
@@ -198,16 +197,11 @@ const report_words_t TWO_DOF_WORDS = {
     .unknown = BOUND_UNKNOWN_RAD,
 };
 
-static report_axes_t axes(const jcal_two_dof_result_t *result)
-{
-    return (report_axes_t){result->has_axes, result->axis1, result->axis2, result->uncertainty1_rad,
-                           result->uncertainty2_rad};
-}
-
-static report_bounds_t bounds(const void *self)
+static report_axes_t axes(const void *self)
 {
     const jcal_two_dof_result_t *result = &((const two_dof_run_t *)self)->result;
-    return (report_bounds_t){result->has_axes, result->uncertainty1_rad, result->uncertainty2_rad};
+    return (report_axes_t){result->has_axes, result->axis1, result->axis2, result->uncertainty1_rad,
+                           result->uncertainty2_rad};
 }
 
 /* In (-180, 180]: rounding may lead past the ends. */
@@ -222,19 +216,10 @@ static bool heading_bounded(const jcal_two_dof_result_t *result)
     return result->has_axes && result->uncertainty_heading_rad < BOUND_UNKNOWN_RAD;
 }
 
-static void advise(const void *self, check_findings_t *findings)
-{
-    const two_dof_run_t *run = self;
-    const report_axes_t found = axes(&run->result);
-    if (!run->sign_is_chosen) {
-        report_advise_sign(&found, findings);
-    }
-}
-
 static void write_json(const void *self, json_t *json)
 {
     const jcal_two_dof_result_t *result = &((const two_dof_run_t *)self)->result;
-    const report_axes_t found = axes(result);
+    const report_axes_t found = axes(self);
     const bool known = result->has_axes;
     const float bound_deg = DEG_PER_RAD * result->uncertainty_heading_rad;
     report_json_axes(json, &found);
@@ -260,7 +245,7 @@ static void print_heading(FILE *file, const jcal_two_dof_result_t *result)
 static void print_summary(const void *self, FILE *file, const report_t *report)
 {
     const jcal_two_dof_result_t *result = &((const two_dof_run_t *)self)->result;
-    const report_axes_t found = axes(result);
+    const report_axes_t found = axes(self);
     report_print_head(file, report);
     report_print_axes(file, &found);
     if (result->has_axes) {
@@ -277,11 +262,12 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 /* ---- The command ---- */
 
 static const calibrate_joint_t TWO_DOF = {.words = &TWO_DOF_WORDS,
+                                          .size = sizeof(two_dof_run_t),
+                                          .start = start,
                                           .push = push,
                                           .reset = reset,
                                           .get = get,
-                                          .bounds = bounds,
-                                          .advise = advise,
+                                          .axes = axes,
                                           .write_json = write_json,
                                           .print_summary = print_summary};
 
@@ -291,18 +277,5 @@ int two_dof_command(int argc, char **argv)
     two_dof_options_t options = {.config = jcal_two_dof_window_config_default()};
     options.config.two_dof.constraint = JCAL_CONSTRAINT_COMBINED;
     common_parse(&LINE, argc, argv, &common, &options);
-    two_dof_run_t *run = calloc(1, sizeof *run);
-    exit_status_t status = EXIT_TROUBLE;
-    if (run == NULL || !start(run, common.engine, &options.config)) {
-        complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
-    } else {
-        const jcal_vec3_t toward = common.axis1_toward;
-        run->sign_is_chosen = toward.x != 0.0f || toward.y != 0.0f || toward.z != 0.0f;
-        status = calibrate(&common, &TWO_DOF, run, true);
-    }
-    if (run != NULL) {
-        free(run->storage);
-    }
-    free(run);
-    return (int)status;
+    return (int)calibrate(&common, &TWO_DOF, &options);
 }

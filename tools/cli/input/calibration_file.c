@@ -4,6 +4,7 @@
 
 #include "input/number.h"
 #include "output/message.h"
+#include "units.h"
 
 #include <errno.h>
 #include <math.h>
@@ -11,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define RAD_PER_DEG 0.0174532925f
 #define VALUE_MAX 160
 
 /* What is left of a line. */

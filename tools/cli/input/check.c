@@ -2,6 +2,8 @@
 /* What is wrong with a recording as a whole. */
 #include "input/check.h"
 
+#include "units.h"
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,8 +15,6 @@ static const int PAIRS[CHECK_PAIRS][2] = {{0, 1}, {0, 2}, {1, 2}};
 /* Rows that tell whether two sensors are the same one, and how many of them must be equal. */
 #define ENOUGH_ROWS 50u
 #define SAME_SHARE 0.95
-
-#define DEG_PER_RAD 57.2957795
 
 /* Equal to the last digit or so, and not because both are dead. */
 static bool same(jcal_vec3_t a, jcal_vec3_t b)
@@ -81,7 +81,7 @@ static void say_same(const check_t *check, check_findings_t *findings)
 static void say_rate_unit(check_findings_t *findings, int sensor, double scale)
 {
     const double per_rad_s = 1.0 / scale;
-    const double per_deg_s = per_rad_s / DEG_PER_RAD;
+    const double per_deg_s = per_rad_s / (double)DEG_PER_RAD;
     if (scale > 1.0) {
         check_say(
             findings,

@@ -3,6 +3,7 @@
 #include "options/common.h"
 
 #include "options/values.h"
+#include "units.h"
 
 #include <string.h>
 

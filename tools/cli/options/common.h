@@ -15,8 +15,6 @@
 #include <argp.h>
 #include <stdint.h>
 
-#define RAD_PER_DEG 0.0174532925f
-
 /// First key for options of a command's own. None of them has a short form.
 #define OPTION_OWN 256
 

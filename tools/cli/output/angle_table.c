@@ -4,13 +4,12 @@
 
 #include "output/json.h"
 #include "output/part_file.h"
+#include "units.h"
 
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
 #include <string.h>
-
-#define DEG_PER_RAD 57.2957795f
 
 /* Axes that may be off by more than this are still being sought: what jumps with them is no turn. */
 #define FOLLOW_BOUND_RAD 0.2f

@@ -9,9 +9,6 @@
 #include "jointcal/jointcal.h"
 #include "output/json.h"
 
-#define DEG_PER_RAD 57.2957795f
-#define MM_PER_M 1000.0f
-
 /// A bound from here on says nothing: any two axes are at most a quarter turn apart.
 #define BOUND_UNKNOWN_RAD 1.5707f
 

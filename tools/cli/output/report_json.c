@@ -2,6 +2,8 @@
 /* What the lines of JSON of all joints have in common. */
 #include "output/report.h"
 
+#include "units.h"
+
 json_t report_json_begin(FILE *file, const char *event, const report_t *report)
 {
     const jcal_head_t *head = &report->head;

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "output/message.h"
+#include "units.h"
 
 #include <inttypes.h>
 

@@ -17,10 +17,10 @@
 typedef struct {
     common_options_t options;
     const calibrate_joint_t *joint;
-    void *self; /* the joint's */
+    bool sign_is_chosen;     /* by --axis1-toward */
+    calibrate_state_t *self; /* the joint's */
     reading_t reading;
-    bool oriented;
-    orientations_t orientations;      /* in use if oriented */
+    orientations_t orientations;      /* in use if rows come with them */
     uint32_t seen[JCAL_REJECT_COUNT]; /* what the joint's counters were */
     uint32_t samples;                 /* rows */
     uint32_t looked_at;               /* rows when the recording was last looked at as a whole */
@@ -42,8 +42,9 @@ static exit_status_t flush(void)
 static void look_at_recording(session_t *session)
 {
     check_findings(&session->reading.recording.check, &session->report.findings);
-    if (session->joint->advise != NULL && session->report.head.status == JCAL_READY) {
-        session->joint->advise(session->self, &session->report.findings);
+    if (session->joint->axes != NULL && !session->sign_is_chosen && session->report.head.status == JCAL_READY) {
+        const report_axes_t axes = session->joint->axes(session->self);
+        report_advise_sign(&axes, &session->report.findings);
     }
     session->looked_at = session->samples;
     report_apply_findings(&session->report);
@@ -78,13 +79,22 @@ static void check_ready(session_t *session, bool was_ready)
     }
 }
 
+static report_bounds_t bounds(const session_t *session)
+{
+    if (session->joint->bounds != NULL) {
+        return session->joint->bounds(session->self);
+    }
+    const report_axes_t axes = session->joint->axes(session->self);
+    return (report_bounds_t){axes.known, axes.bound1, axes.bound2};
+}
+
 /* Takes over what the joint says now. Its counters are of what it was given and since when it was reset; a report counts rows. */
 static void look(session_t *session)
 {
     report_t *report = &session->report;
     const bool was_ready = report->head.status == JCAL_READY;
     report->head = *session->joint->get(session->self);
-    report->bounds = session->joint->bounds(session->self);
+    report->bounds = bounds(session);
     report->head.samples = session->samples;
     report->head.rejected = 0;
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
@@ -96,7 +106,7 @@ static void look(session_t *session)
     }
     /* Readings that are wrong as a whole give the joint no orientations, so it cannot know. */
     const jcal_reason_t complaint =
-        session->oriented ? orientations_complaint(&session->orientations) : JCAL_REASON_NONE;
+        session->self->oriented ? orientations_complaint(&session->orientations) : JCAL_REASON_NONE;
     if (complaint != JCAL_REASON_NONE) {
         report->head.status = (report->head.status == JCAL_READY) ? JCAL_COLLECTING : report->head.status;
         report->head.reason = complaint;
@@ -108,7 +118,7 @@ static void look(session_t *session)
 /* The next row, with its orientations if the joint needs them. */
 static recording_event_t next_row(session_t *session, oriented_row_t *row)
 {
-    if (session->oriented) {
+    if (session->self->oriented) {
         return orientations_next(&session->orientations, row);
     }
     row->reject = JCAL_REJECT_NONE;
@@ -208,7 +218,7 @@ static recording_event_t prepare(session_t *session)
 {
     recording_t *recording = &session->reading.recording;
     const recording_event_t event = session->joint->third ? recording_want_third(recording) : RECORDING_ROW;
-    if (event != RECORDING_ROW || !session->oriented) {
+    if (event != RECORDING_ROW || !session->self->oriented) {
         return event;
     }
     const recording_event_t opened = orientations_open(&session->orientations, recording);
@@ -229,17 +239,12 @@ static exit_status_t run_recording(session_t *session)
     return status;
 }
 
-exit_status_t calibrate(const common_options_t *options, const calibrate_joint_t *joint, void *self, bool oriented)
+static exit_status_t run(session_t *session, const common_options_t *options, const calibrate_joint_t *joint)
 {
-    session_t *session = calloc(1, sizeof *session);
-    if (session == NULL) {
-        complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
-        return EXIT_TROUBLE;
-    }
+    const jcal_vec3_t toward = options->axis1_toward;
     session->options = *options;
     session->joint = joint;
-    session->self = self;
-    session->oriented = oriented;
+    session->sign_is_chosen = toward.x != 0.0f || toward.y != 0.0f || toward.z != 0.0f;
     session->report.words = joint->words;
     session->report.max_bound = options->max_bound;
     exit_status_t status = reading_open(&session->reading, options->recording, options->sort);
@@ -247,6 +252,27 @@ exit_status_t calibrate(const common_options_t *options, const calibrate_joint_t
         status = run_recording(session);
     }
     reading_close(&session->reading);
+    return status;
+}
+
+exit_status_t calibrate(const common_options_t *options, const calibrate_joint_t *joint, const void *own)
+{
+    calibrate_state_t *self = calloc(1, joint->size);
+    session_t *session = calloc(1, sizeof *session);
+    exit_status_t status = EXIT_TROUBLE;
+    if (self != NULL) {
+        self->engine = options->engine;
+    }
+    if (self == NULL || session == NULL || !joint->start(self, own)) {
+        complain("jointcal", 0, 0, "%s", strerror(ENOMEM));
+    } else {
+        session->self = self;
+        status = run(session, options, joint);
+    }
+    if (self != NULL) {
+        free(self->storage);
+    }
     free(session);
+    free(self);
     return status;
 }

@@ -4,7 +4,7 @@
 #ifndef JCAL_PRIVATE_HINGE_BLOCK_H
 #define JCAL_PRIVATE_HINGE_BLOCK_H
 
-#include "jointcal/types.h"
+#include "jointcal/private/plane.h"
 
 #ifdef __cplusplus
 extern "C" {

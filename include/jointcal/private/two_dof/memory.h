@@ -4,7 +4,7 @@
 #ifndef JCAL_PRIVATE_TWO_DOF_MEMORY_H
 #define JCAL_PRIVATE_TWO_DOF_MEMORY_H
 
-#include "jointcal/types.h"
+#include "jointcal/private/plane.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -4,6 +4,7 @@
 #ifndef JCAL_PRIVATE_TWO_DOF_POINT_H
 #define JCAL_PRIVATE_TWO_DOF_POINT_H
 
+#include "jointcal/private/plane.h"
 #include "jointcal/types.h"
 
 #ifdef __cplusplus

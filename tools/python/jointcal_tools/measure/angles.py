@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import ctypes
 import json
 import subprocess
 import tempfile
@@ -11,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from .. import native
+from .. import native, native_two_dof
 from ..recordings import IMU_COLUMNS
 from . import optical
 from .harness import Report, Settings, Skipped, median, number, quantile, run_jobs
@@ -23,7 +22,6 @@ HINGES = ("rig_1D_01", "rig_1D_02", "rig_1D_04")
 CALIBRATE_S = 20.0
 WINDOW_S = 10.0
 MEDIAN_DEG, MOST_DEG, MOST_SHARE = 1.5, 2.5, 0.9
-COLUMNS = 12  # JCAL_BATCH_JOINT_COLUMNS of tools/native/joint.h
 ORIENTATION_COLUMNS = tuple(f"q{sensor}_{part}" for sensor in (1, 2) for part in "wxyz")
 
 
@@ -36,18 +34,6 @@ def orientations(name: str) -> np.ndarray:
                                     params={"Ts": 1.0 / rec.rate_hz}) for gyr, acc in sensors])
 
 
-def two_dof_track(t_s: np.ndarray, q: np.ndarray) -> np.ndarray:
-    """(N, COLUMNS): what the engine says after each sample."""
-    values = np.ascontiguousarray(q, np.float32)
-    t_us = native.microseconds(t_s)
-    rows = np.zeros((len(values), COLUMNS), np.float32)
-    done = native.library().jcal_batch_two_dof(ctypes.c_void_p(t_us.ctypes.data), ctypes.c_void_p(values.ctypes.data),
-                                               ctypes.c_size_t(len(values)), ctypes.c_void_p(rows.ctypes.data))
-    if done != 0:
-        raise RuntimeError(f"jcal_batch_two_dof returned {done}")
-    return rows.astype(float)
-
-
 def calibration(name: str, q: np.ndarray) -> dict:
     """A line as `--json` writes it, of the first 20 s; `status` is that of their end."""
     rec = recording(name)
@@ -56,9 +42,9 @@ def calibration(name: str, q: np.ndarray) -> dict:
         track = native.run(cut(rec, 0, count))
         return {"status": "ready" if track.ready[-1] else "collecting", "axis1": track.axis1[-1].tolist(),
                 "axis2": track.axis2[-1].tolist(), "sign_margin": None}
-    row = two_dof_track(rec.t_s[:count], q[:count])[-1]
-    return {"status": "ready" if row[0] == native.READY else "collecting", "axis1": row[1:4].tolist(),
-            "axis2": row[4:7].tolist(), "carrying_angle_deg": float(np.degrees(row[8]))}
+    track = native_two_dof.run(rec.t_s[:count], q[:count, :4], q[:count, 4:])
+    return {"status": "ready" if track.ready[-1] else "collecting", "axis1": track.axis1[-1].tolist(),
+            "axis2": track.axis2[-1].tolist(), "carrying_angle_deg": float(track.carrying_deg[-1])}
 
 
 def program() -> Path:
