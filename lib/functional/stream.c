@@ -120,7 +120,13 @@ static bool is_finite(const jcal_tick_t *tick)
 /// Features began anew: the headings of before are not those of now.
 static void cut(jcal_functional_t *self)
 {
-    if (self->sums.block[0].motion_s > 0.0f) {
+    const bool first = self->search.tried < JCAL_FUNCTIONAL_FIRST_TRIALS;
+    if (first && (self->sums.block[1].motion_s > 0.0f)) { /* nothing knows a heading yet that it could be merged with */
+        jcal_clear(&self->sums, sizeof self->sums);
+        jcal_clear(&self->search, sizeof self->search);
+        self->motion_s = 0.0f;
+        self->slice = (uint8_t)IDLE;
+    } else if (self->sums.block[0].motion_s > 0.0f) {
         self->merged = self->merged || (self->sums.block[1].motion_s > 0.0f);
         jcal_functional_sums_close(&self->sums, &self->point);
     }
@@ -253,6 +259,9 @@ static void work(jcal_functional_t *self)
     } else {
         jcal_functional_judge(self);
         if (self->verdict.status == (uint8_t)JCAL_READY) {
+            if (self->kept_sign[0] == 0) { /* slips are looked for from here on, with what this estimate leaves */
+                jcal_functional_track_trust(&self->track);
+            }
             jcal_sign_keep(&self->kept_sign[0], self->point.j1, self->cfg.axis1_toward);
         }
     }

@@ -108,6 +108,13 @@ bool jcal_functional_track_alarm(const jcal_functional_track_t *self)
            (self->recent[JCAL_FAMILY_LEVER] > MOVED_LEVER);
 }
 
+void jcal_functional_track_trust(jcal_functional_track_t *self)
+{
+    for (unsigned f = 0u; f < JCAL_FAMILIES; ++f) {
+        self->recent[f] = 0.0f;
+    }
+}
+
 void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2,
                                float motion_s)
 {
@@ -138,6 +145,7 @@ void jcal_functional_track_clear(jcal_functional_t *self)
     self->track.sum = (jcal_plane_t){0.0f, 0.0f};
     self->track.heading = self->point.heading[0];
     self->track.known = false;
+    jcal_functional_track_trust(&self->track);
 }
 
 float jcal_functional_flexion(const jcal_functional_t *self, jcal_quat_t orientation1, jcal_quat_t orientation2)
