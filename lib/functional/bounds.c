@@ -8,7 +8,7 @@
 #include "functional/model.h"
 #include "jointcal/functional.h"
 #include "jointcal/vec3.h"
-#include "math/chol.h"
+#include "math/chol_small.h"
 #include "math/plane.h"
 #include "math/scalar.h"
 #include "math/sphere.h"
@@ -36,10 +36,14 @@ void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jc
     const jcal_tangent_t t2 = jcal_sphere_tangent(point->j2);
     const jcal_vec3_t left[4] = {t1.u, t1.v, point->j1, point->j1};
     const jcal_vec3_t right[4] = {point->j2, point->j2, t2.u, t2.v};
+    float rates[27];
     for (size_t i = 0u; i < 4u; ++i) {
         float m[9];
         float n[9];
-        jcal_functional_between_rates(sums->block[b].rate, left[i], right[i], scale, m);
+        if (i < 3u) { /* the last two share j1 */
+            jcal_functional_left_rates(sums->block[b].rate, left[i], scale, rates);
+        }
+        jcal_functional_right_rates(rates, right[i], m);
         jcal_functional_times_transposed(point->turn[b], m, n);
         jcal_functional_turn_slope(n, &out[3u * i]);
         const jcal_plane_t pull = {jcal_functional_between(sums->block[b].turn_re, left[i], right[i]),
@@ -71,13 +75,13 @@ static void take_out(const jcal_functional_sums_t *sums, const jcal_functional_p
     float nuisance[JCAL_SYM_SIZE(3u)];
     jcal_functional_bound_coupling(sums, point, b, q);
     jcal_functional_bound_nuisance(sums, point, b, nuisance);
-    if (!jcal_chol_factor(nuisance, 3u, nuisance, NULL)) {
+    if (!jcal_chol3_factor(nuisance)) {
         jcal_sym_zero(hessian, 4u); /* the block is not at a minimum: nothing is known */
         return;
     }
     for (size_t i = 0u; i < 4u; ++i) {
-        float solved[3];
-        jcal_chol_solve(nuisance, 3u, &q[3u * i], solved);
+        float solved[3] = {q[3u * i], q[(3u * i) + 1u], q[(3u * i) + 2u]};
+        jcal_chol3_solve(nuisance, solved);
         for (size_t k = 0u; k <= i; ++k) {
             const float *const qk = &q[3u * k];
             hessian[jcal_sym_at(i, k)] -= (solved[0] * qk[0]) + (solved[1] * qk[1]) + (solved[2] * qk[2]);
@@ -99,16 +103,21 @@ static void finish(jcal_functional_t *self)
     jcal_functional_verdict_t *const verdict = &self->verdict;
     verdict->bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
     verdict->bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
-    float factor[JCAL_SYM_SIZE(4u)];
-    if (jcal_chol_factor(verdict->hessian, 4u, factor, NULL)) {
-        float p[JCAL_SYM_SIZE(4u)];
-        jcal_chol_inverse(factor, 4u, p);
+    float *const factor = verdict->hessian; /* not needed any more */
+    if (jcal_chol4_factor(factor)) {
+        float p[4][4]; /* columns of the inverse */
+        for (size_t k = 0u; k < 4u; ++k) {
+            for (size_t i = 0u; i < 4u; ++i) {
+                p[k][i] = (i == k) ? 1.0f : 0.0f;
+            }
+            jcal_chol4_solve(factor, p[k]);
+        }
         const float person = jcal_min(self->point.size[JCAL_FAMILY_RATE] / PERSON_RATE, 1.0f);
         const float lasting = LASTING_RIGID + ((LASTING_PERSON - LASTING_RIGID) * person);
         const float growth = sqrtf(lasting + (READING_S / jcal_max(self->sums.motion_s, FLT_MIN)));
         const float floor_rad = FLOOR_RIGID_RAD + ((FLOOR_PERSON_RAD - FLOOR_RIGID_RAD) * person);
-        verdict->bound1_rad = jcal_min(floor_rad + (growth * widest(p[0], p[1], p[2])), JCAL_BOUND_UNKNOWN_RAD);
-        verdict->bound2_rad = jcal_min(floor_rad + (growth * widest(p[5], p[8], p[9])), JCAL_BOUND_UNKNOWN_RAD);
+        verdict->bound1_rad = jcal_min(floor_rad + (growth * widest(p[0][0], p[0][1], p[1][1])), JCAL_BOUND_UNKNOWN_RAD);
+        verdict->bound2_rad = jcal_min(floor_rad + (growth * widest(p[2][2], p[2][3], p[3][3])), JCAL_BOUND_UNKNOWN_RAD);
     }
 }
 

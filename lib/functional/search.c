@@ -7,6 +7,7 @@
 #include "functional/headings.h"
 #include "functional/levers.h"
 #include "functional/model.h"
+#include "math/clear.h"
 #include "math/plane.h"
 
 /// Headings that are tried, 45 deg apart.
@@ -54,7 +55,7 @@ static void begin(jcal_functional_search_t *self, const jcal_functional_sums_t *
                   const jcal_functional_point_t *estimate)
 {
     jcal_functional_point_t *const trial = &self->trial;
-    *trial = *estimate;
+    jcal_copy(trial, estimate, sizeof *trial);
     jcal_functional_turn_all(trial, eighth(self->turn));
     trial->weight[JCAL_FAMILY_TURN] = 1.0f / TURN_GUESS;
     trial->weight[JCAL_FAMILY_RATE] = 1.0f / RATE_GUESS;
@@ -83,7 +84,7 @@ bool jcal_functional_try(jcal_functional_search_t *self, const jcal_functional_s
     const float ahead = sums->motion_s * (estimate->energy - self->trial.energy);
     const bool is_better = !self->has_estimate || (ahead > AHEAD);
     if (is_better) {
-        *estimate = self->trial;
+        jcal_copy(estimate, &self->trial, sizeof *estimate);
         self->has_estimate = true;
     }
     self->turn = (uint8_t)((self->turn + 1u) % JCAL_FUNCTIONAL_TRIALS);
