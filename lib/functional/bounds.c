@@ -4,6 +4,7 @@
 #include "functional/bounds.h"
 
 #include "functional/axes.h"
+#include "functional/describe.h"
 #include "functional/headings.h"
 #include "functional/model.h"
 #include "jointcal/functional.h"
@@ -140,6 +141,7 @@ void jcal_functional_bound(jcal_functional_t *self, unsigned part)
         jcal_functional_cross(&self->sums, &self->point, &x);
         jcal_functional_quadric(&self->sums, &x, &self->point, &h);
         jcal_functional_tangent_hessian(&h, self->point.j1, self->point.j2, true, self->verdict.hessian, slope);
+        jcal_functional_describe(self, &x);
     } else if (part <= JCAL_FUNCTIONAL_BLOCKS) {
         take_out(&self->sums, &self->point, part - 1u, self->verdict.hessian);
     } else {
