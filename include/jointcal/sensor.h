@@ -19,7 +19,7 @@
 /// same. Distances of samples may vary; one longer than 105 ms is a gap: features start anew, the low-pass of the inclination begins
 /// again, heading and bias are kept, and the tick's epoch counts up. Time that goes back is a gap too.
 ///
-/// Cost: 0.75 KiB of state; docs/measurements/budget.md has the instructions.
+/// Cost: 0.8 KiB of state; docs/measurements/budget.md has the instructions.
 /// Source: orientation and bias in the manner of [VQF]; docs/METHOD_PEOPLE.md, section 1, derives both and the features.
 /// Threads: all calls on one sensor belong to one task, or behind the caller's lock.
 #ifndef JCAL_SENSOR_H
@@ -51,7 +51,7 @@ JCAL_MUST_CHECK jcal_status_t jcal_sensor_init(jcal_sensor_t *self);
 ///
 /// Returns:  JCAL_OK; JCAL_TICK if there are new features; JCAL_REJECTED if a component is not finite or beyond the limits above, or if
 ///           the time is that of the last reading; JCAL_ERR_ARG.
-/// Cost:     constant, about 700 instructions on a Cortex-M4F, 1,500 more if there is a tick.
+/// Cost:     constant, about 800 instructions on a Cortex-M4F, 1,500 more if there is a tick.
 jcal_status_t jcal_sensor_push(jcal_sensor_t *self, const jcal_reading_t *reading);
 
 /// The last features; they change with the next call of push that returns JCAL_TICK. Null before the first tick, and after a gap until

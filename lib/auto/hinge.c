@@ -117,9 +117,9 @@ jcal_status_t jcal_hinge_auto_get(const jcal_hinge_auto_t *self, jcal_hinge_auto
     (void)jcal_hinge_get(&self->rigid, &out->hinge);
     (void)jcal_functional_pair_get(&self->functional, &functional);
     const jcal_head_t *const rigid = &out->hinge.head;
-    const bool unfit = (rigid->reason == JCAL_REASON_DOES_NOT_FIT) && (rigid->status != JCAL_MOVED);
-    const bool ready = (rigid->status != JCAL_READY) && (functional.head.status == JCAL_READY);
-    if ((ready && is_person(&functional)) || (unfit && functional.has_axes && !ready)) {
+    const bool settled = (rigid->status == JCAL_READY) || (rigid->status == JCAL_MOVED);
+    const bool unfit = functional.has_axes && (rigid->reason == JCAL_REASON_DOES_NOT_FIT);
+    if (!settled && (is_person(&functional) || (unfit && (functional.head.status != JCAL_READY)))) {
         out->model = JCAL_MODEL_FUNCTIONAL;
         say_functional(&functional, &out->hinge);
     }
@@ -127,6 +127,7 @@ jcal_status_t jcal_hinge_auto_get(const jcal_hinge_auto_t *self, jcal_hinge_auto
     out->bend_rad = functional.bend_rad;
     out->flexion_uncertainty_rad = jcal_functional_flexion_error(
         &self->functional.joint, jcal_max(out->hinge.uncertainty1_rad, out->hinge.uncertainty2_rad));
+    out->gravity_off_m_s2 = functional.gravity_off_m_s2;
     out->heading = functional.heading;
     out->has_levers = functional.has_axes;
     out->joint_to_sensor1_m = functional.joint_to_sensor1_m;

@@ -28,6 +28,9 @@
 #define PERSON_RATE 0.01f
 #define READING_S 2.5f
 
+/// Longest step of an axis, rad: a quadratic model is good for so much.
+#define HOME_MAX_RAD 0.1f
+
 void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                                     float *out)
 {
@@ -53,36 +56,75 @@ void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jc
     }
 }
 
+/// What block b pulls its turn by: its grip, and turn and lever residuals seen from its heading.
+typedef struct {
+    jcal_functional_grip_t grip;
+    jcal_plane_t turn, lever;
+} pull_t;
+
+static void pull_of(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b, pull_t *out)
+{
+    jcal_functional_grip(sums, point, b, &out->grip);
+    out->turn = jcal_plane_times(point->heading[b], jcal_functional_turn_pull(sums, point, b));
+    out->lever = jcal_plane_times(point->heading[b], jcal_functional_lever_pull(sums, point, b));
+}
+
+static void nuisance_of(const pull_t *pull, float *out)
+{
+    jcal_functional_turn_hessian(pull->grip.n, out);
+    /* Heading and turn go together about z: what ties them does not count there. */
+    out[5] += jcal_max(pull->turn.re, 0.0f) + jcal_max(pull->lever.re, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
+}
+
+static void slope_of(const pull_t *pull, const float *turn, float *out)
+{
+    float n[9];
+    jcal_functional_turn_slope(pull->grip.n, out);
+    jcal_functional_times_transposed(turn, pull->grip.m, n);
+    out[2] = n[1] - n[3] + (pull->turn.im + pull->lever.im); /* what ties heading and turn does not count */
+}
+
 void jcal_functional_bound_nuisance(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                                     float *out)
 {
-    jcal_functional_grip_t grip;
-    jcal_functional_grip(sums, point, b, &grip);
-    jcal_functional_turn_hessian(grip.n, out);
-    const jcal_plane_t heading = point->heading[b];
-    const float turn = jcal_plane_times(heading, jcal_functional_turn_pull(sums, point, b)).re;
-    const float lever = jcal_plane_times(heading, jcal_functional_lever_pull(sums, point, b)).re;
-    /* Heading and turn go together about z: what ties them does not count there. */
-    out[5] += jcal_max(turn, 0.0f) + jcal_max(lever, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
+    pull_t pull;
+    pull_of(sums, point, b, &pull);
+    nuisance_of(&pull, out);
 }
 
-/// hessian <- what is left of it when block b's turn is free.
-static void take_out(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b, float *hessian)
+void jcal_functional_bound_slope(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                                 float *out)
 {
+    pull_t pull;
+    pull_of(sums, point, b, &pull);
+    slope_of(&pull, point->turn[b], out);
+}
+
+/// hessian and slope of the verdict <- what is left of them when block b's turn is free, and where that is best.
+static void take_out(jcal_functional_t *self, size_t b)
+{
+    const jcal_functional_sums_t *const sums = &self->sums;
+    const jcal_functional_point_t *const point = &self->point;
+    float *const hessian = self->verdict.hessian;
     if (!(sums->block[b].motion_s > JCAL_FUNCTIONAL_BLOCK_MIN_S)) {
         return;
     }
     float q[12];
     float nuisance[JCAL_SYM_SIZE(3u)];
     jcal_functional_bound_coupling(sums, point, b, q);
-    jcal_functional_bound_nuisance(sums, point, b, nuisance);
+    pull_t pull;
+    pull_of(sums, point, b, &pull);
+    nuisance_of(&pull, nuisance);
     if (!jcal_chol3_factor(nuisance)) {
         jcal_sym_zero(hessian, 4u); /* the block is not at a minimum: nothing is known */
         return;
     }
+    float off[3];
+    slope_of(&pull, point->turn[b], off);
     for (size_t i = 0u; i < 4u; ++i) {
         float solved[3] = {q[3u * i], q[(3u * i) + 1u], q[(3u * i) + 2u]};
         jcal_chol3_solve(nuisance, solved);
+        self->verdict.slope[i] -= (solved[0] * off[0]) + (solved[1] * off[1]) + (solved[2] * off[2]);
         for (size_t k = 0u; k <= i; ++k) {
             const float *const qk = &q[3u * k];
             hessian[jcal_sym_at(i, k)] -= (solved[0] * qk[0]) + (solved[1] * qk[1]) + (solved[2] * qk[2]);
@@ -96,6 +138,25 @@ static float widest(float p00, float p01, float p11)
     const float mean = 0.5f * (p00 + p11);
     const float half = 0.5f * (p00 - p11);
     return sqrtf(jcal_max(mean + sqrtf((half * half) + (p01 * p01)), 0.0f));
+}
+
+/// The last step to the minimum, with headings and turns free: rounds that take turns with them come near it slowly. Each bound grows by
+/// how far its axis still had to go.
+static void step_home(jcal_functional_t *self, const float *factor)
+{
+    jcal_functional_verdict_t *const verdict = &self->verdict;
+    jcal_functional_point_t *const point = &self->point;
+    float *const step = verdict->slope; /* not needed any more */
+    jcal_chol4_solve(factor, step);
+    const float way1 = sqrtf((step[0] * step[0]) + (step[1] * step[1]));
+    const float way2 = sqrtf((step[2] * step[2]) + (step[3] * step[3]));
+    const float scale = -jcal_min(1.0f, HOME_MAX_RAD / jcal_max(jcal_max(way1, way2), FLT_MIN));
+    const jcal_tangent_t t1 = jcal_sphere_tangent(point->j1);
+    const jcal_tangent_t t2 = jcal_sphere_tangent(point->j2);
+    point->j1 = jcal_sphere_move(point->j1, &t1, scale * step[0], scale * step[1]);
+    point->j2 = jcal_sphere_move(point->j2, &t2, scale * step[2], scale * step[3]);
+    verdict->bound1_rad = jcal_min(verdict->bound1_rad + way1, JCAL_BOUND_UNKNOWN_RAD);
+    verdict->bound2_rad = jcal_min(verdict->bound2_rad + way2, JCAL_BOUND_UNKNOWN_RAD);
 }
 
 /// Bounds from what is left of the Hessian.
@@ -119,6 +180,7 @@ static void finish(jcal_functional_t *self)
         const float floor_rad = FLOOR_RIGID_RAD + ((FLOOR_PERSON_RAD - FLOOR_RIGID_RAD) * person);
         verdict->bound1_rad = jcal_min(floor_rad + (growth * widest(p[0][0], p[0][1], p[1][1])), JCAL_BOUND_UNKNOWN_RAD);
         verdict->bound2_rad = jcal_min(floor_rad + (growth * widest(p[2][2], p[2][3], p[3][3])), JCAL_BOUND_UNKNOWN_RAD);
+        step_home(self, factor);
     }
 }
 
@@ -137,13 +199,13 @@ void jcal_functional_bound(jcal_functional_t *self, unsigned part)
     if (part == 0u) {
         jcal_functional_cross_t x;
         jcal_functional_quadric_t h;
-        float slope[4];
         jcal_functional_cross(&self->sums, &self->point, &x);
         jcal_functional_quadric(&self->sums, &x, &self->point, &h);
-        jcal_functional_tangent_hessian(&h, self->point.j1, self->point.j2, true, self->verdict.hessian, slope);
+        jcal_functional_tangent_hessian(&h, self->point.j1, self->point.j2, true, self->verdict.hessian,
+                                        self->verdict.slope);
         jcal_functional_describe(self, &x);
     } else if (part <= JCAL_FUNCTIONAL_BLOCKS) {
-        take_out(&self->sums, &self->point, part - 1u, self->verdict.hessian);
+        take_out(self, part - 1u);
     } else {
         finish(self);
     }

@@ -24,4 +24,8 @@ void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jc
 void jcal_functional_bound_nuisance(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                                     float *out);
 
+/// out (3) <- first derivative of the cost by the same turn. Cost: 350 multiply-adds.
+void jcal_functional_bound_slope(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                                 float *out);
+
 #endif /* JCAL_FUNCTIONAL_BOUNDS_H */

@@ -29,9 +29,11 @@
 #define BEND_MIN_RAD (15.0f * DEGREE)
 #define SHARE_MIN 0.8f
 #define LACK_MAX 0.025f
-/// Bending, rms, times the root of what is along the axis over what is across it: two thighs that move alike bend about their line as
-/// little as 16 deg and as impurely as 85 %, which makes 38 deg, later 18 deg and 88 %, which makes 48; a knee that goes out of its plane does so in large motion.
-#define CLEAR_BEND_MIN_RAD (55.0f * DEGREE)
+/// Bending, rms, times the root of what is along the axis over what is across it: what there must be, more the worse the centre's motion
+/// fits. Two thighs that move alike do as a joint does, but bend about their line by 18 deg at 88 %, which makes 48 deg, with a share of
+/// 0.011 to 0.025 left; a knee that makes as little in its first seconds leaves 0.004.
+#define CLEAR_BEND_MIN_RAD (40.0f * DEGREE)
+#define CLEAR_BEND_LACK 0.03f
 /// Noise of the centre's velocity, squared, (m/s)^2; what the other pairing must leave beside this one, and evidence of that kind.
 #define SPEED_NOISE2 6e-4f
 /// The joint's centre must move at this speed, squared, both sides together, (m/s)^2: the sense of an axis hangs on that.
@@ -57,6 +59,16 @@ static bool is_one_joint(const jcal_functional_t *self, float slack)
     const float speed2 = jcal_max(self->point.speed2, FLT_MIN);
     const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
     return (left - SPEED_NOISE2) <= (slack * LACK_MAX * speed2);
+}
+
+/// True if the joint bends about one line, far enough that this is no chance.
+static bool bends_clearly(const jcal_functional_t *self, float slack)
+{
+    const float across = jcal_max(1.0f - self->verdict.share, FLT_EPSILON);
+    const float clear = self->verdict.bend_rad * sqrtf(jcal_max(self->verdict.share, 0.0f) / across);
+    const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
+    const float lack = jcal_max(left - SPEED_NOISE2, 0.0f) / jcal_max(self->point.speed2, FLT_MIN);
+    return (slack * clear) >= (CLEAR_BEND_MIN_RAD * (1.0f + (lack / CLEAR_BEND_LACK)));
 }
 
 /// True if the pairing of signs is certain.
@@ -97,9 +109,7 @@ static jcal_reason_t find_reason(const jcal_functional_t *self, float slack)
     if (!((slack * verdict->bend_rad) >= BEND_MIN_RAD) || !((slack * verdict->stiffness) >= STIFFNESS_MIN)) {
         return JCAL_REASON_NO_BEND;
     }
-    const float across = jcal_max(1.0f - verdict->share, 1e-3f);
-    const float clear = verdict->bend_rad * sqrtf(verdict->share / across);
-    if (!((slack * verdict->share) >= SHARE_MIN) || !((slack * clear) >= CLEAR_BEND_MIN_RAD)) {
+    if (!((slack * verdict->share) >= SHARE_MIN) || !bends_clearly(self, slack)) {
         return JCAL_REASON_MORE_AXES;
     }
     if (!is_paired(self, slack)) {

@@ -27,12 +27,21 @@ jcal_status_t jcal_functional_pair_init(jcal_functional_pair_t *self, const jcal
     return (status == JCAL_OK) ? jcal_functional_init(&self->joint, config) : status;
 }
 
+/// True if orientations are better followed with this reading than without: what is clipped, or repeats the one before in place of a lost
+/// packet, is the best that is known of its moment, and a turn that is left out is lost.
+static bool may_be_followed(jcal_reject_t reject)
+{
+    return (reject == JCAL_REJECT_NONE) || (reject == JCAL_REJECT_SATURATED) || (reject == JCAL_REJECT_REPEATED) ||
+           (reject == JCAL_REJECT_GAP);
+}
+
 jcal_status_t jcal_functional_pair_update(jcal_functional_pair_t *self, const jcal_pair_t *pair)
 {
     if ((self == NULL) || (pair == NULL)) {
         return JCAL_ERR_ARG;
     }
-    if (jcal_gate_check(&self->gate, &self->limits, pair) != JCAL_REJECT_NONE) {
+    const jcal_reject_t reject = jcal_gate_check(&self->gate, &self->limits, pair);
+    if (!may_be_followed(reject)) {
         return JCAL_REJECTED;
     }
     const jcal_reading_t reading1 = {pair->t_us, pair->imu1};
@@ -47,7 +56,7 @@ jcal_status_t jcal_functional_pair_update(jcal_functional_pair_t *self, const jc
             break;
         }
     }
-    return JCAL_OK;
+    return (reject == JCAL_REJECT_NONE) ? JCAL_OK : JCAL_REJECTED;
 }
 
 jcal_status_t jcal_functional_pair_get(const jcal_functional_pair_t *self, jcal_functional_result_t *out)

@@ -5,10 +5,10 @@
 
 #include "batch.h"
 
-#include "jointcal/functional_pair.h"
+#include "jointcal/hinge_auto.h"
 
 /* Numbers per tick: status, reason, weak, hint, axis1 (3), axis2 (3), uncertainty1_rad, uncertainty2_rad, flexion_uncertainty_rad,
-   for_axes, for_flexion, has_axes, heading_rad, joint_to_sensor1_m (3), joint_to_sensor2_m (3), evidence (3), opposite, share, bend_rad,
+   for_axes, for_flexion, is_functional, heading_rad, joint_to_sensor1_m (3), joint_to_sensor2_m (3), evidence (3), opposite, share, bend_rad,
    stiffness, lack per second, speed2, motion_s of the sums, size (3), gravity_off, motion_s, energy, number of the sample. */
 #define JCAL_BATCH_FUNCTIONAL_COLUMNS 40
 
@@ -17,6 +17,8 @@ typedef struct {
     float max_flexion_rad;
     float slices_per_s;
     int32_t sign_hint;
+    int32_t either; /* 1: as of a hinge of either kind; 0: as of the functional model alone */
+    int32_t begin;  /* samples that come before this one go to the sensors only, so that their filters have settled */
 } jcal_batch_functional_options_t;
 
 typedef struct {

@@ -118,6 +118,21 @@ static void distances_of_samples_may_vary(void)
     TEST_ASSERT_EQUAL_UINT32(1u, jcal_sensor_tick(&sensor)->epoch);
 }
 
+/* The same as those of a sensor that knows nothing from before, but for the heading. */
+static void assert_same_but_for_heading(const jcal_tick_t *a, const jcal_tick_t *fresh)
+{
+    TEST_ASSERT_EQUAL_UINT32(2u, a->epoch);
+    TEST_ASSERT_EQUAL_UINT32(1u, fresh->epoch);
+    TEST_ASSERT_EQUAL_FLOAT(fresh->since_s, a->since_s);
+    TEST_ASSERT_EQUAL_FLOAT(fresh->acc_level_m_s2, a->acc_level_m_s2);
+    TEST_ASSERT_EQUAL_FLOAT(fresh->gyr.x, a->gyr.x);
+    TEST_ASSERT_TRUE(fabsf(a->velocity.z - fresh->velocity.z) < 1e-4f);
+    for (int i = 6; i < 9; ++i) {
+        TEST_ASSERT_TRUE(fabsf(a->lever[i] - fresh->lever[i]) < 1e-4f);
+        TEST_ASSERT_TRUE(fabsf(a->turn[i] - fresh->turn[i]) < 1e-5f);
+    }
+}
+
 static void a_gap_starts_features_anew_and_keeps_the_heading(void)
 {
     jcal_sensor_t sensor;
@@ -131,36 +146,25 @@ static void a_gap_starts_features_anew_and_keeps_the_heading(void)
         (void)jcal_sensor_push(&sensor, &reading);
     }
     double before[9];
+    double after[9];
+    double step[9];
     mat_of(jcal_sensor_orientation(&sensor), before);
+    mat_transpose(before, before);
     TEST_ASSERT_EQUAL_UINT32(1u, jcal_sensor_tick(&sensor)->epoch);
-    for (t_us += 200000; t_us < 4000000; t_us += DT_US) {
+    t_us += 200000;
+    const jcal_reading_t first = reading_at(&motion, 0, t_us);
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_sensor_push(&sensor, &first));
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_sensor_push(&fresh, &first));
+    mat_of(jcal_sensor_orientation(&sensor), after);
+    mat_mul(after, before, step);
+    TEST_ASSERT_TRUE(fabs(step[3] - step[1]) < 1e-6);
+    TEST_ASSERT_NULL(jcal_sensor_tick(&sensor));
+    for (t_us += DT_US; t_us < 4000000; t_us += DT_US) {
         const jcal_reading_t reading = reading_at(&motion, 0, t_us);
         const jcal_status_t status = jcal_sensor_push(&sensor, &reading);
         TEST_ASSERT_EQUAL_INT(status, jcal_sensor_push(&fresh, &reading));
-        if (t_us == 2200000) {
-            double after[9];
-            double step[9];
-            mat_of(jcal_sensor_orientation(&sensor), after);
-            mat_transpose(before, before);
-            mat_mul(after, before, step);
-            TEST_ASSERT_TRUE(fabs(step[3] - step[1]) < 1e-6);
-            TEST_ASSERT_NULL(jcal_sensor_tick(&sensor));
-            TEST_ASSERT_EQUAL_INT(JCAL_OK, status);
-        }
         if (status == JCAL_TICK) {
-            /* The same as those of a sensor that knows nothing from before, but for the heading. */
-            const jcal_tick_t *const a = jcal_sensor_tick(&sensor);
-            const jcal_tick_t *const b = jcal_sensor_tick(&fresh);
-            TEST_ASSERT_EQUAL_UINT32(2u, a->epoch);
-            TEST_ASSERT_EQUAL_UINT32(1u, b->epoch);
-            TEST_ASSERT_EQUAL_FLOAT(b->since_s, a->since_s);
-            TEST_ASSERT_EQUAL_FLOAT(b->acc_level_m_s2, a->acc_level_m_s2);
-            TEST_ASSERT_TRUE(fabsf(a->velocity.z - b->velocity.z) < 1e-4f);
-            for (int i = 6; i < 9; ++i) {
-                TEST_ASSERT_TRUE(fabsf(a->lever[i] - b->lever[i]) < 1e-4f);
-                TEST_ASSERT_TRUE(fabsf(a->turn[i] - b->turn[i]) < 1e-5f);
-            }
-            TEST_ASSERT_EQUAL_FLOAT(b->gyr.x, a->gyr.x);
+            assert_same_but_for_heading(jcal_sensor_tick(&sensor), jcal_sensor_tick(&fresh));
         }
     }
 }
@@ -310,6 +314,7 @@ static int by_size(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* It goes up and down by 0.25 m/s^3 for half of the 0.55 s of a step. */
 static void the_level_of_the_specific_force_is_its_median(void)
 {
     jcal_sensor_t sensor;
@@ -325,7 +330,7 @@ static void the_level_of_the_specific_force_is_its_median(void)
                                         {{0.0f, 0.5f, 0.0f}, {0.6f * gait(k), 0.0f, 0.8f * gait(k)}}};
         (void)jcal_sensor_push(&sensor, &reading);
         if (k > 1500) {
-            TEST_ASSERT_TRUE(fabsf(jcal_sensor_tick(&sensor)->acc_level_m_s2 - median) < 0.3f);
+            TEST_ASSERT_TRUE(fabsf(jcal_sensor_tick(&sensor)->acc_level_m_s2 - median) < 0.15f);
         }
     }
     /* It follows a change within 10 s. */

@@ -143,7 +143,8 @@ static void emit(void *context, const char *event, const message_estimate_t *est
     }
     progress_clear(&session->reading.progress);
     json_t json = report_json_begin(stdout, event, &report);
-    hinge_write_keys(&json, &estimate->result);
+    const jcal_hinge_auto_result_t result = hinge_of_rigid(&estimate->result);
+    hinge_write_keys(&json, &result);
     report_json_end(&json, &report);
     if (fflush(stdout) != 0 || ferror(stdout) != 0) {
         session->output_failed = true;
