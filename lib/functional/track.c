@@ -56,7 +56,11 @@ static void forget(jcal_functional_track_t *self)
 
 void jcal_functional_track_trust(jcal_functional_t *self)
 {
-    forget(&self->track);
+    jcal_functional_track_t *const track = &self->track;
+    const float size = jcal_plane_norm(track->sum);
+    forget(track);
+    track->heading = self->point.heading[0];
+    track->sum = (jcal_plane_t){size * track->heading.re, size * track->heading.im};
     self->track.zero[0] = smallest(self->point.j1);
     self->track.zero[1] = smallest(self->point.j2);
 }
