@@ -100,6 +100,12 @@ void jcal_functional_bound_slope(const jcal_functional_sums_t *sums, const jcal_
     slope_of(&pull, point->turn[b], out);
 }
 
+/// Share of block b in all motion.
+static float block_share(const jcal_functional_sums_t *sums, size_t b)
+{
+    return sums->block[b].motion_s / jcal_max(sums->motion_s, FLT_MIN);
+}
+
 /// hessian and slope of the verdict <- what is left of them when block b's turn is free, and where that is best.
 static void take_out(jcal_functional_t *self, size_t b)
 {
@@ -121,9 +127,13 @@ static void take_out(jcal_functional_t *self, size_t b)
     }
     float off[3];
     slope_of(&pull, point->turn[b], off);
+    const float scale = self->verdict.block_share[b] / block_share(sums, b); /* ticks may have come in between */
     for (size_t i = 0u; i < 4u; ++i) {
         float solved[3] = {q[3u * i], q[(3u * i) + 1u], q[(3u * i) + 2u]};
         jcal_chol3_solve(nuisance, solved);
+        for (size_t k = 0u; k < 3u; ++k) {
+            solved[k] *= scale;
+        }
         self->verdict.slope[i] -= (solved[0] * off[0]) + (solved[1] * off[1]) + (solved[2] * off[2]);
         for (size_t k = 0u; k <= i; ++k) {
             const float *const qk = &q[3u * k];
@@ -204,6 +214,9 @@ void jcal_functional_bound(jcal_functional_t *self, unsigned part)
         jcal_functional_tangent_hessian(&h, self->point.j1, self->point.j2, true, self->verdict.hessian,
                                         self->verdict.slope);
         jcal_functional_describe(self, &x);
+        for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
+            self->verdict.block_share[b] = block_share(&self->sums, b);
+        }
     } else if (part <= JCAL_FUNCTIONAL_BLOCKS) {
         take_out(self, part - 1u);
     } else {
