@@ -12,7 +12,6 @@
 
 /// Headings that are tried, 45 deg apart.
 #define HEADINGS 8u
-#define ROUND_PARTS 4u
 
 /// Logarithm of the odds that another solution must be ahead by before it is taken.
 #define AHEAD 0.5f
@@ -37,7 +36,9 @@ void jcal_functional_round(const jcal_functional_sums_t *sums, jcal_functional_p
         jcal_functional_step_axes(&h, &point->j1, &point->j2);
         jcal_functional_measure(sums, &x, point);
     } else {
-        jcal_functional_find_heading(sums, point, part - 2u);
+        for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
+            jcal_functional_find_heading(sums, point, b);
+        }
     }
 }
 
@@ -76,7 +77,7 @@ bool jcal_functional_try(jcal_functional_search_t *self, const jcal_functional_s
         begin(self, sums, estimate);
         return false;
     }
-    jcal_functional_round(sums, &self->trial, (part - 1u) % ROUND_PARTS);
+    jcal_functional_round(sums, &self->trial, (part - 1u) % JCAL_FUNCTIONAL_ROUND_SLICES);
     if (part < (JCAL_FUNCTIONAL_TRIAL_SLICES - 1u)) {
         return false;
     }

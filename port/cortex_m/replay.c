@@ -233,7 +233,7 @@ static void mark_part(void (*mark)(void))
 
 static void step_all(uint64_t t_us)
 {
-    const unsigned most = 1u + (unsigned)(200u * (uint32_t)(t_us - last_us) / 1000000u);
+    const unsigned most = 1u + (unsigned)(90u * (uint32_t)(t_us - last_us) / 1000000u);
     jcal_status_t status = JCAL_OK;
     for (unsigned k = 0; (k < most) && (status == JCAL_OK); ++k) {
 #ifdef REPLAY_SHOW_SLICES
