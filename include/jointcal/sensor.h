@@ -58,7 +58,11 @@ jcal_status_t jcal_sensor_push(jcal_sensor_t *self, const jcal_reading_t *readin
 /// there is one again.
 const jcal_tick_t *jcal_sensor_tick(const jcal_sensor_t *self);
 
-/// The orientation after the last reading, sensor to earth; the identity before any. That of `turn` if that reading made a tick.
+/// The orientation at the time of the last reading, sensor to earth; the identity before any.
+///
+/// A reading is the mean over the time before it: sensors filter, and average between the readings that they send. Features meet rates
+/// and specific forces of one reading, so that this delay is nothing to them; `turn` of a tick is as old as they are. The orientation
+/// here is half a sample further on. Beside optics the angle of a knee then has no lag (docs/METHOD_PEOPLE.md, section 1).
 jcal_quat_t jcal_sensor_orientation(const jcal_sensor_t *self);
 
 /// The bias of the gyroscope, rad/s; zero as long as nothing tells it.

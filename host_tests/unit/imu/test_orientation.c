@@ -42,7 +42,7 @@ static jcal_status_t put(run_t *run, const double gyr[3], const double acc[3])
 
 static void turn_of(const run_t *run, double out[9])
 {
-    mat_of(jcal_sensor_orientation(&run->sensor), out);
+    mat_of(run->sensor.attitude.q_s_e, out);
 }
 
 /* Angle of the direction that is taken for up with the one that is. */
