@@ -25,22 +25,33 @@ static double across(jcal_vec3_t v, jcal_vec3_t j)
     return (double)jcal_vec3_norm(jcal_vec3_cross(v, j));
 }
 
-/// Hinges that differ in everything; number 0 is the usual one.
+/// A number in [-1, 1] that is another one for each n.
+static double any(int n)
+{
+    uint32_t x = 2654435761u * ((uint32_t)n + 12345u);
+    x ^= x >> 15;
+    x *= 2246822519u;
+    x ^= x >> 13;
+    return (double)(x >> 8) / 8388607.5 - 1.0;
+}
+
+/// Hinges that differ in everything: mounts, levers, heading, pace, how much the segments turn and the centre moves.
 static hinge_t some_hinge(int number)
 {
     hinge_t h = hinge_usual();
-    for (int i = 0; i < 3; ++i) {
-        h.r1[i] += 0.1 * sin(3.0 * number + i);
-        h.r2[i] -= 0.1 * sin(5.0 * number + i);
-    }
-    const double turn1[3] = {0.4 + 1.7 * sin(7.0 * number), -0.3 + 1.5 * sin(11.0 * number), 0.6};
-    const double turn2[3] = {-0.5, 0.2 + 1.6 * sin(13.0 * number), 0.35 + 1.9 * sin(17.0 * number)};
+    const int n = 16 * number;
+    const double turn1[3] = {2.0 * any(n), 2.0 * any(n + 1), 2.0 * any(n + 2)};
+    const double turn2[3] = {2.0 * any(n + 3), 2.0 * any(n + 4), 2.0 * any(n + 5)};
     mat_turn(turn1, h.mount1);
     mat_turn(turn2, h.mount2);
-    h.heading = 3.0 * sin(0.3 + 2.0 * number);
-    h.pace = exp(0.5 * sin(19.0 * number));
-    h.turn = exp(0.6 * sin(23.0 * number));
-    h.lift = exp(0.5 * sin(29.0 * number));
+    for (int i = 0; i < 3; ++i) {
+        h.r1[i] = 0.2 * any(n + 6 + i);
+        h.r2[i] = 0.2 * any(n + 9 + i);
+    }
+    h.heading = 3.0 * any(n + 12);
+    h.pace = pow(2.0, any(n + 13));
+    h.turn = pow(2.0, any(n + 14));
+    h.lift = pow(2.0, any(n + 15));
     return h;
 }
 
