@@ -14,8 +14,8 @@
 
 #include <float.h>
 
-/// Time constant of the heading, s: 4 to 16 s do alike.
-#define MEMORY_S 8.0f
+/// Time constant of the heading, s: 4 to 16 s do alike where it rests; where it drifts it lags by so much, which must not look like a slip.
+#define MEMORY_S 4.0f
 
 /// Squared rate that is added before a residual of the rates is taken as a share of them, (rad/s)^2.
 #define WATCH_REST_RATE2 0.3f
