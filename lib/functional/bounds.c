@@ -31,16 +31,22 @@
 /// Longest step of an axis, rad: a quadratic model is good for so much.
 #define HOME_MAX_RAD 0.1f
 
-void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
-                                    float *out)
+/// Weight of the rates' products.
+static float rate_scale(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point)
 {
-    const float scale = point->weight[JCAL_FAMILY_RATE] / jcal_max(sums->rate2, FLT_MIN);
+    return point->weight[JCAL_FAMILY_RATE] / jcal_max(sums->rate2, FLT_MIN);
+}
+
+/// As jcal_functional_bound_coupling; `rates` (27) <- those of block b across j1, weighted.
+static void couple(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b, float *rates,
+                   float *out)
+{
+    const float scale = rate_scale(sums, point);
     const float turn_scale = point->weight[JCAL_FAMILY_TURN] / jcal_max(sums->motion_s, FLT_MIN);
     const jcal_tangent_t t1 = jcal_sphere_tangent(point->j1);
     const jcal_tangent_t t2 = jcal_sphere_tangent(point->j2);
     const jcal_vec3_t left[4] = {t1.u, t1.v, point->j1, point->j1};
     const jcal_vec3_t right[4] = {point->j2, point->j2, t2.u, t2.v};
-    float rates[27];
     for (size_t i = 0u; i < 4u; ++i) {
         float m[9];
         float n[9];
@@ -56,15 +62,24 @@ void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jc
     }
 }
 
+void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                                    float *out)
+{
+    float rates[27];
+    couple(sums, point, b, rates, out);
+}
+
 /// What block b pulls its turn by: its grip, and turn and lever residuals seen from its heading.
 typedef struct {
     jcal_functional_grip_t grip;
     jcal_plane_t turn, lever;
 } pull_t;
 
-static void pull_of(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b, pull_t *out)
+/// With the rates of the block across j1, weighted.
+static void pull_of(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                    const float *rates, pull_t *out)
 {
-    jcal_functional_grip(sums, point, b, &out->grip);
+    jcal_functional_grip_left(point, b, rates, &out->grip);
     out->turn = jcal_plane_times(point->heading[b], jcal_functional_turn_pull(sums, point, b));
     out->lever = jcal_plane_times(point->heading[b], jcal_functional_lever_pull(sums, point, b));
 }
@@ -88,7 +103,9 @@ void jcal_functional_bound_nuisance(const jcal_functional_sums_t *sums, const jc
                                     float *out)
 {
     pull_t pull;
-    pull_of(sums, point, b, &pull);
+    float rates[27];
+    jcal_functional_left_rates(sums->block[b].rate, point->j1, rate_scale(sums, point), rates);
+    pull_of(sums, point, b, rates, &pull);
     nuisance_of(&pull, out);
 }
 
@@ -96,7 +113,9 @@ void jcal_functional_bound_slope(const jcal_functional_sums_t *sums, const jcal_
                                  float *out)
 {
     pull_t pull;
-    pull_of(sums, point, b, &pull);
+    float rates[27];
+    jcal_functional_left_rates(sums->block[b].rate, point->j1, rate_scale(sums, point), rates);
+    pull_of(sums, point, b, rates, &pull);
     slope_of(&pull, point->turn[b], out);
 }
 
@@ -117,9 +136,10 @@ static void take_out(jcal_functional_t *self, size_t b)
     }
     float q[12];
     float nuisance[JCAL_SYM_SIZE(3u)];
-    jcal_functional_bound_coupling(sums, point, b, q);
+    float rates[27];
+    couple(sums, point, b, rates, q);
     pull_t pull;
-    pull_of(sums, point, b, &pull);
+    pull_of(sums, point, b, rates, &pull);
     nuisance_of(&pull, nuisance);
     if (!jcal_chol3_factor(nuisance)) {
         jcal_sym_zero(hessian, 4u); /* the block is not at a minimum: nothing is known */
@@ -188,8 +208,10 @@ static void finish(jcal_functional_t *self)
         const float lasting = LASTING_RIGID + ((LASTING_PERSON - LASTING_RIGID) * person);
         const float growth = sqrtf(lasting + (READING_S / jcal_max(self->sums.motion_s, FLT_MIN)));
         const float floor_rad = FLOOR_RIGID_RAD + ((FLOOR_PERSON_RAD - FLOOR_RIGID_RAD) * person);
-        verdict->bound1_rad = jcal_min(floor_rad + (growth * widest(p[0][0], p[0][1], p[1][1])), JCAL_BOUND_UNKNOWN_RAD);
-        verdict->bound2_rad = jcal_min(floor_rad + (growth * widest(p[2][2], p[2][3], p[3][3])), JCAL_BOUND_UNKNOWN_RAD);
+        verdict->bound1_rad =
+            jcal_min(floor_rad + (growth * widest(p[0][0], p[0][1], p[1][1])), JCAL_BOUND_UNKNOWN_RAD);
+        verdict->bound2_rad =
+            jcal_min(floor_rad + (growth * widest(p[2][2], p[2][3], p[3][3])), JCAL_BOUND_UNKNOWN_RAD);
         step_home(self, factor);
     }
 }
