@@ -51,30 +51,21 @@ void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jc
     }
 }
 
-void jcal_functional_bound_nuisance(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
-                                    float *out)
-{
-    jcal_functional_grip_t grip;
-    jcal_functional_grip(sums, point, b, &grip);
-    jcal_functional_turn_hessian(grip.n, out);
-    const jcal_plane_t heading = point->heading[b];
-    const float turn = jcal_plane_times(heading, jcal_functional_turn_pull(sums, point, b)).re;
-    const float lever = jcal_plane_times(heading, jcal_functional_lever_pull(sums, point, b)).re;
-    /* Heading and turn go together about z: what ties them does not count there. */
-    out[5] += jcal_max(turn, 0.0f) + jcal_max(lever, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
-}
-
-void jcal_functional_bound_slope(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
-                                 float *out)
+void jcal_functional_bound_turn(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                                float *slope, float *hessian)
 {
     jcal_functional_grip_t grip;
     float n[9];
     jcal_functional_grip(sums, point, b, &grip);
-    jcal_functional_turn_slope(grip.n, out);
+    jcal_functional_turn_hessian(grip.n, hessian);
+    jcal_functional_turn_slope(grip.n, slope);
+    const jcal_plane_t heading = point->heading[b];
+    const jcal_plane_t turn = jcal_plane_times(heading, jcal_functional_turn_pull(sums, point, b));
+    const jcal_plane_t lever = jcal_plane_times(heading, jcal_functional_lever_pull(sums, point, b));
+    /* Heading and turn go together about z: what ties them does not count there. */
+    hessian[5] += jcal_max(turn.re, 0.0f) + jcal_max(lever.re, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
     jcal_functional_times_transposed(point->turn[b], grip.m, n);
-    const jcal_plane_t pull =
-        jcal_plane_add(jcal_functional_turn_pull(sums, point, b), 1.0f, jcal_functional_lever_pull(sums, point, b));
-    out[2] = n[1] - n[3] + jcal_plane_times(point->heading[b], pull).im; /* what ties heading and turn does not count */
+    slope[2] = (n[1] - n[3]) + turn.im + lever.im;
 }
 
 /// hessian and slope of the verdict <- what is left of them when block b's turn is free, and where that is best.
@@ -87,15 +78,14 @@ static void take_out(jcal_functional_t *self, size_t b)
         return;
     }
     float q[12];
+    float off[3];
     float nuisance[JCAL_SYM_SIZE(3u)];
     jcal_functional_bound_coupling(sums, point, b, q);
-    jcal_functional_bound_nuisance(sums, point, b, nuisance);
+    jcal_functional_bound_turn(sums, point, b, off, nuisance);
     if (!jcal_chol_factor(nuisance, 3u, nuisance, NULL)) {
         jcal_sym_zero(hessian, 4u); /* the block is not at a minimum: nothing is known */
         return;
     }
-    float off[3];
-    jcal_functional_bound_slope(sums, point, b, off);
     for (size_t i = 0u; i < 4u; ++i) {
         float solved[3];
         jcal_chol_solve(nuisance, 3u, &q[3u * i], solved);

@@ -46,13 +46,13 @@ static double between_packed(const float *m, const double a[3])
            2.0 * ((double)m[1] * a[0] * a[1] + (double)m[3] * a[0] * a[2] + (double)m[4] * a[1] * a[2]);
 }
 
-/// a' m b, m (n x n), with the weights of a complex number: re - im.
-static double between_turned(const float *re, const float *im, double angle, const double *a, const double *b, int n)
+/// a' m b, m (n x n, real and imaginary part) turned by an angle, its real part.
+static double between_turned(const float *const m[2], double angle, const double *a, const double *b, int n)
 {
     double sum = 0.0;
     for (int i = 0; i < n; ++i) {
         for (int k = 0; k < n; ++k) {
-            sum += a[i] * b[k] * (cos(angle) * (double)re[n * i + k] - sin(angle) * (double)im[n * i + k]);
+            sum += a[i] * b[k] * (cos(angle) * (double)m[0][n * i + k] - sin(angle) * (double)m[1][n * i + k]);
         }
     }
     return sum;
@@ -92,8 +92,10 @@ static double cost(const place_t *at)
     for (int b = 0; b < 2; ++b) {
         const jcal_functional_block_t *const block = &sums->block[b];
         const double angle = at->heading[b];
-        turn -= between_turned(block->turn_re, block->turn_im, angle, j1, j2, 3);
-        lever -= between_turned(block->lever_re, block->lever_im, angle, x1, x2, 4);
+        const float *const turns[2] = {block->turn_re, block->turn_im};
+        const float *const levers[2] = {block->lever_re, block->lever_im};
+        turn -= between_turned(turns, angle, j1, j2, 3);
+        lever -= between_turned(levers, angle, x1, x2, 4);
         const double *const d = at->turn[b];
         for (int i = 0; i < 81; ++i) {
             rate -= d[3 * (i / 27) + (i % 9) / 3] * j1[(i / 9) % 3] * (double)block->rate[i] * j2[i % 3];
@@ -204,8 +206,7 @@ static void of_turns_and_of_both(void)
         float slope[3];
         float nuisance[6];
         float coupling[12];
-        jcal_functional_bound_slope(&run.joint.sums, &run.joint.point, b, slope);
-        jcal_functional_bound_nuisance(&run.joint.sums, &run.joint.point, b, nuisance);
+        jcal_functional_bound_turn(&run.joint.sums, &run.joint.point, b, slope, nuisance);
         jcal_functional_bound_coupling(&run.joint.sums, &run.joint.point, b, coupling);
         const double scale = (double)jcal_max(jcal_max(nuisance[0], nuisance[2]), nuisance[5]);
         /* What ties a turn that leans to its heading is counted as if it did not lean, 0.04 rad here. */
