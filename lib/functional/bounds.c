@@ -10,6 +10,7 @@
 #include "jointcal/functional.h"
 #include "jointcal/vec3.h"
 #include "math/chol_small.h"
+#include "math/clear.h"
 #include "math/plane.h"
 #include "math/scalar.h"
 #include "math/sphere.h"
@@ -69,54 +70,39 @@ void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jc
     couple(sums, point, b, rates, out);
 }
 
-/// What block b pulls its turn by: its grip, and turn and lever residuals seen from its heading.
+/// Both derivatives of the cost by a block's turn, as jcal_functional_bound_turn.
 typedef struct {
+    float slope[3];
+    float hessian[JCAL_SYM_SIZE(3u)];
+} by_turn_t;
+
+/// With the rates of block b across j1, weighted.
+static void turn_of(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                    const float *rates, by_turn_t *out)
+{
     jcal_functional_grip_t grip;
-    jcal_plane_t turn, lever;
-} pull_t;
-
-/// With the rates of the block across j1, weighted.
-static void pull_of(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
-                    const float *rates, pull_t *out)
-{
-    jcal_functional_grip_left(point, b, rates, &out->grip);
-    out->turn = jcal_plane_times(point->heading[b], jcal_functional_turn_pull(sums, point, b));
-    out->lever = jcal_plane_times(point->heading[b], jcal_functional_lever_pull(sums, point, b));
-}
-
-static void nuisance_of(const pull_t *pull, float *out)
-{
-    jcal_functional_turn_hessian(pull->grip.n, out);
-    /* Heading and turn go together about z: what ties them does not count there. */
-    out[5] += jcal_max(pull->turn.re, 0.0f) + jcal_max(pull->lever.re, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
-}
-
-static void slope_of(const pull_t *pull, const float *turn, float *out)
-{
     float n[9];
-    jcal_functional_turn_slope(pull->grip.n, out);
-    jcal_functional_times_transposed(turn, pull->grip.m, n);
-    out[2] = n[1] - n[3] + (pull->turn.im + pull->lever.im); /* what ties heading and turn does not count */
+    jcal_functional_grip_left(point, b, rates, &grip);
+    jcal_functional_turn_hessian(grip.n, out->hessian);
+    jcal_functional_turn_slope(grip.n, out->slope);
+    const jcal_plane_t heading = point->heading[b];
+    const jcal_plane_t turn = jcal_plane_times(heading, jcal_functional_turn_pull(sums, point, b));
+    const jcal_plane_t lever = jcal_plane_times(heading, jcal_functional_lever_pull(sums, point, b));
+    /* Heading and turn go together about z: what ties them does not count there. */
+    out->hessian[5] += jcal_max(turn.re, 0.0f) + jcal_max(lever.re, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
+    jcal_functional_times_transposed(point->turn[b], grip.m, n);
+    out->slope[2] = (n[1] - n[3]) + turn.im + lever.im;
 }
 
-void jcal_functional_bound_nuisance(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
-                                    float *out)
+void jcal_functional_bound_turn(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                                float *slope, float *hessian)
 {
-    pull_t pull;
     float rates[27];
+    by_turn_t by;
     jcal_functional_left_rates(sums->block[b].rate, point->j1, rate_scale(sums, point), rates);
-    pull_of(sums, point, b, rates, &pull);
-    nuisance_of(&pull, out);
-}
-
-void jcal_functional_bound_slope(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
-                                 float *out)
-{
-    pull_t pull;
-    float rates[27];
-    jcal_functional_left_rates(sums->block[b].rate, point->j1, rate_scale(sums, point), rates);
-    pull_of(sums, point, b, rates, &pull);
-    slope_of(&pull, point->turn[b], out);
+    turn_of(sums, point, b, rates, &by);
+    jcal_copy(slope, by.slope, sizeof by.slope);
+    jcal_copy(hessian, by.hessian, sizeof by.hessian);
 }
 
 /// Share of block b in all motion.
@@ -135,26 +121,22 @@ static void take_out(jcal_functional_t *self, size_t b)
         return;
     }
     float q[12];
-    float nuisance[JCAL_SYM_SIZE(3u)];
     float rates[27];
+    by_turn_t by;
     couple(sums, point, b, rates, q);
-    pull_t pull;
-    pull_of(sums, point, b, rates, &pull);
-    nuisance_of(&pull, nuisance);
-    if (!jcal_chol3_factor(nuisance)) {
+    turn_of(sums, point, b, rates, &by);
+    if (!jcal_chol3_factor(by.hessian)) {
         jcal_sym_zero(hessian, 4u); /* the block is not at a minimum: nothing is known */
         return;
     }
-    float off[3];
-    slope_of(&pull, point->turn[b], off);
     const float scale = self->verdict.block_share[b] / block_share(sums, b); /* ticks may have come in between */
     for (size_t i = 0u; i < 4u; ++i) {
         float solved[3] = {q[3u * i], q[(3u * i) + 1u], q[(3u * i) + 2u]};
-        jcal_chol3_solve(nuisance, solved);
+        jcal_chol3_solve(by.hessian, solved);
         for (size_t k = 0u; k < 3u; ++k) {
             solved[k] *= scale;
         }
-        self->verdict.slope[i] -= (solved[0] * off[0]) + (solved[1] * off[1]) + (solved[2] * off[2]);
+        self->verdict.slope[i] -= (solved[0] * by.slope[0]) + (solved[1] * by.slope[1]) + (solved[2] * by.slope[2]);
         for (size_t k = 0u; k <= i; ++k) {
             const float *const qk = &q[3u * k];
             hessian[jcal_sym_at(i, k)] -= (solved[0] * qk[0]) + (solved[1] * qk[1]) + (solved[2] * qk[2]);
