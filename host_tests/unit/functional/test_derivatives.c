@@ -206,7 +206,8 @@ static void of_turns_and_of_both(void)
         float slope[3];
         float nuisance[6];
         float coupling[12];
-        jcal_functional_bound_turn(&run.joint.sums, &run.joint.point, b, slope, nuisance);
+        jcal_functional_bound_slope(&run.joint.sums, &run.joint.point, b, slope);
+        jcal_functional_bound_nuisance(&run.joint.sums, &run.joint.point, b, nuisance);
         jcal_functional_bound_coupling(&run.joint.sums, &run.joint.point, b, coupling);
         const double scale = (double)jcal_max(jcal_max(nuisance[0], nuisance[2]), nuisance[5]);
         /* What ties a turn that leans to its heading is counted as if it did not lean, 0.04 rad here. */
