@@ -70,7 +70,7 @@ void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jc
     couple(sums, point, b, rates, out);
 }
 
-/// Both derivatives of the cost by a block's turn, as jcal_functional_bound_turn.
+/// Both derivatives of the cost by a block's turn, as jcal_functional_bound_slope and jcal_functional_bound_nuisance.
 typedef struct {
     float slope[3];
     float hessian[JCAL_SYM_SIZE(3u)];
@@ -94,15 +94,24 @@ static void turn_of(const jcal_functional_sums_t *sums, const jcal_functional_po
     out->slope[2] = (n[1] - n[3]) + turn.im + lever.im;
 }
 
-void jcal_functional_bound_turn(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
-                                float *slope, float *hessian)
+void jcal_functional_bound_nuisance(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                                    float *out)
 {
     float rates[27];
     by_turn_t by;
     jcal_functional_left_rates(sums->block[b].rate, point->j1, rate_scale(sums, point), rates);
     turn_of(sums, point, b, rates, &by);
-    jcal_copy(slope, by.slope, sizeof by.slope);
-    jcal_copy(hessian, by.hessian, sizeof by.hessian);
+    jcal_copy(out, by.hessian, sizeof by.hessian);
+}
+
+void jcal_functional_bound_slope(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                                 float *out)
+{
+    float rates[27];
+    by_turn_t by;
+    jcal_functional_left_rates(sums->block[b].rate, point->j1, rate_scale(sums, point), rates);
+    turn_of(sums, point, b, rates, &by);
+    jcal_copy(out, by.slope, sizeof by.slope);
 }
 
 /// Share of block b in all motion.
