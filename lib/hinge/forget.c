@@ -8,7 +8,6 @@
 #include "math/scalar.h"
 #include "math/sym.h"
 
-
 #define TILTS JCAL_HINGE_TILTS
 #define UNKNOWNS JCAL_HINGE_UNKNOWNS
 
