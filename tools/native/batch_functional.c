@@ -113,6 +113,10 @@ int32_t jcal_batch_functional(const jcal_batch_functional_options_t *options, co
             .imu1 = {.gyr_rad_s = {v[0], v[1], v[2]}, .acc_m_s2 = {v[3], v[4], v[5]}},
             .imu2 = {.gyr_rad_s = {v[6], v[7], v[8]}, .acc_m_s2 = {v[9], v[10], v[11]}},
         };
+        if ((options->hold > 0) && (k >= (size_t)options->hold)) { /* no slice of solving is paid for any more */
+            engine.functional.joint.cfg.slices_per_s = 0.0f;
+            engine.functional.joint.credit = 0.0f;
+        }
         if (options->either != 0) {
             (void)jcal_hinge_auto_update(&engine, &pair);
         } else {

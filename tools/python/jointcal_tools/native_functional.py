@@ -23,7 +23,8 @@ class Options(ctypes.Structure):
     """jcal_batch_functional_options_t of tools/native/batch_functional.h."""
 
     _fields_ = [("max_bound_rad", ctypes.c_float), ("max_flexion_rad", ctypes.c_float), ("slices_per_s", ctypes.c_float),
-                ("sign_hint", ctypes.c_int32), ("either", ctypes.c_int32), ("begin", ctypes.c_int32)]
+                ("sign_hint", ctypes.c_int32), ("either", ctypes.c_int32), ("begin", ctypes.c_int32),
+                ("hold", ctypes.c_int32)]
 
 
 class Output(ctypes.Structure):
@@ -62,9 +63,9 @@ class Track:
 
 
 def run(rec: Recording, max_bound_deg: float | None = None, max_flexion_deg: float | None = None,
-        slices_per_s: float | None = None, sign_hint: str = "unknown", either: bool = False, begin: int = 0) -> Track:
+        slices_per_s: float | None = None, sign_hint: str = "unknown", either: bool = False, begin: int = 0, hold: int = 0) -> Track:
     """A fresh instance over the whole recording; `either`: what both models say together. Samples before `begin` go to the
-    sensors' filters only."""
+    sensors' filters only. From sample `hold` on, if it is not 0, axes stay as they are and only the heading is followed."""
     lib = library()
     options = Options()
     lib.jcal_batch_functional_defaults(ctypes.byref(options))
@@ -74,7 +75,7 @@ def run(rec: Recording, max_bound_deg: float | None = None, max_flexion_deg: flo
         options.max_flexion_rad = np.radians(max_flexion_deg)
     if slices_per_s is not None:
         options.slices_per_s = slices_per_s
-    options.sign_hint, options.either, options.begin = SIGN_HINTS[sign_hint], int(either), begin
+    options.sign_hint, options.either, options.begin, options.hold = SIGN_HINTS[sign_hint], int(either), begin, hold
     data, t_us = values(rec), microseconds(rec.t_s)
     rows = np.zeros((len(data), COLUMNS), np.float32)
     flexion = np.zeros(len(data), np.float32)
