@@ -91,6 +91,15 @@ static void write_row(const jcal_hinge_auto_t *engine, bool either, size_t sampl
     memcpy(row, values, sizeof(values));
 }
 
+static void write_turns(const jcal_hinge_auto_t *engine, float turns[static 8])
+{
+    for (unsigned which = 1u; which <= 2u; ++which) {
+        const jcal_quat_t q = jcal_hinge_auto_orientation(engine, which);
+        const float values[4] = {q.w, q.x, q.y, q.z};
+        memcpy(turns + 4u * (which - 1u), values, sizeof(values));
+    }
+}
+
 int32_t jcal_batch_functional(const jcal_batch_functional_options_t *options, const jcal_batch_input_t *in,
                               jcal_batch_functional_out_t *out)
 {
@@ -122,6 +131,7 @@ int32_t jcal_batch_functional(const jcal_batch_functional_options_t *options, co
         } else {
             (void)jcal_functional_pair_update(&engine.functional, &pair);
         }
+        write_turns(&engine, out->turns + k * 8);
         if (k < (size_t)options->begin) {
             engine.rigid = fresh.rigid;
             engine.functional.joint = fresh.functional.joint;

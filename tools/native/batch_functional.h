@@ -25,6 +25,7 @@ typedef struct {
 typedef struct {
     float *rows;    /* at most count x JCAL_BATCH_FUNCTIONAL_COLUMNS */
     float *flexion; /* count, rad, after each sample; NaN while there is none */
+    float *turns;   /* count x 8, orientations of both sensors to their level frames after each sample: w, x, y, z */
     uint64_t row_count;
 } jcal_batch_functional_out_t;
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from .. import native_functional, native_sensor
+from .. import native_functional
 from .. import quaternions as quat
-from ..recordings import Recording
 
 LEAST_SAMPLES = 20  # below which an rms says nothing
 
@@ -22,13 +21,13 @@ def tangents(axis: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return u, np.cross(axis, u)
 
 
-def twist_deg(turns: tuple[np.ndarray, np.ndarray], heading_deg: np.ndarray, axis1: np.ndarray, axis2: np.ndarray) -> np.ndarray:
+def twist_deg(orientations: tuple[np.ndarray, np.ndarray], heading_deg: np.ndarray, axis1: np.ndarray, axis2: np.ndarray) -> np.ndarray:
     """(N,) twist about the axes of R1' Rz(heading) R2, from a zero that the axes make.
 
-    `turns`: matrices (N, 3, 3) of both sensors to their level frames; heading (N,) of level frame 2 to 1; axes of unit length.
+    Orientations (N, 4) of both sensors to their level frames; heading (N,) of level frame 2 to 1; axes of unit length.
     """
     (u1, v1), (u2, v2) = tangents(axis1), tangents(axis2)
-    r1, r2 = turns
+    r1, r2 = (quat.matrices(q) for q in orientations)
     c, s = np.cos(np.radians(heading_deg)), np.sin(np.radians(heading_deg))
 
     def in_level1(v: np.ndarray) -> np.ndarray:
@@ -61,11 +60,6 @@ def apart_rms_deg(found_deg: np.ndarray, reference_deg: np.ndarray) -> float:
     off = apart_deg(found_deg, reference_deg)
     known = off[np.isfinite(off)]
     return float(np.sqrt(np.mean(known**2))) if len(known) >= LEAST_SAMPLES else float("nan")
-
-
-def turns_of(rec: Recording) -> tuple[np.ndarray, np.ndarray]:
-    """Matrices (N, 3, 3) of both sensors to their level frames, by the library's filter from the first sample on."""
-    return tuple(quat.matrices(native_sensor.run(rec.t_s, gyr, acc).q) for gyr, acc in ((rec.gyr1, rec.acc1), (rec.gyr2, rec.acc2)))
 
 
 def heading_at_samples(track: native_functional.Track, count: int) -> np.ndarray:

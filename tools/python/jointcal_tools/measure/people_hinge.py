@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,7 @@ from ..recordings import Recording
 from . import people_joints as people
 from .harness import Report, Settings, Skipped, median, number, percent, run_jobs
 from .judge import available, cut, line_angle_deg
-from .people_flexion import apart_rms_deg, heading_at_samples, turns_of, twist_deg
+from .people_flexion import apart_rms_deg, heading_at_samples, twist_deg
 
 TITLE = "People's joints as hinges"
 SAME_SENSORS = ("human_leg_left:knee",)  # those of human_knee_left
@@ -41,6 +42,12 @@ def names_of(*kinds: str) -> list[str]:
     return [name for name in people.people_joints(*kinds) if name not in SAME_SENSORS]
 
 
+@functools.cache
+def motion_before(name: str) -> np.ndarray:
+    """(N + 1,) seconds of motion before each sample, and of all."""
+    return np.concatenate([[0.0], people.motion_s(people.people_joint(name))])
+
+
 # Whole recordings.
 
 @dataclass
@@ -65,7 +72,7 @@ def status_changes(status: np.ndarray) -> int:
 
 def measure_whole(name: str) -> Whole:
     rec = people.people_joint(name)
-    track, moved = functional.run(rec, either=True), people.motion_s(rec)
+    track, moved = functional.run(rec, either=True), motion_before(name)[1:]
     t_s = rec.t_s - rec.t_s[0]
     first = int(track.sample[track.ready.argmax()]) if track.ready.any() else None
     rms = held = best = float("nan")
@@ -129,6 +136,7 @@ class Start:
     flexion_deg: list[float]  # errors of the calibrations while ready for flexion
 
 
+@functools.cache
 def whole_axes(name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Axes and bounds at the end of the recording: what parts of it are held against."""
     track = functional.run(people.people_joint(name), either=True)
@@ -147,11 +155,11 @@ def errors_of(track: functional.Track, axis1: np.ndarray, axis2: np.ndarray) -> 
     return errors, (track.axis1 @ axis1) * (track.axis2 @ axis2) < 0.0
 
 
-def judged_ticks(track: functional.Track, among: np.ndarray) -> list[int]:
-    """The first of the ticks `among` (M,), and then one every few seconds."""
+def judged_ticks(moved_s: np.ndarray, among: np.ndarray) -> list[int]:
+    """The first of the ticks `among` (M,), and then one every few seconds of motion."""
     found: list[int] = []
     for k in np.flatnonzero(among):
-        if not found or track.t_s[k] - track.t_s[found[-1]] >= JUDGED_EVERY_S:
+        if not found or moved_s[k] - moved_s[found[-1]] >= JUDGED_EVERY_S:
             found.append(int(k))
     return found
 
@@ -163,15 +171,14 @@ def flexion_error_deg(name: str, first: int, skipped: int, axes: tuple[np.ndarra
     JUDGED_MOTION_S of motion, NaN if there are too few.
     """
     rec = people.people_joint(name)
-    moved = people.motion_s(rec)
-    end = int(np.searchsorted(moved, moved[hold] + JUDGED_MOTION_S))
-    end = min(end, len(rec))
+    moved = motion_before(name)[1:]
+    end = min(int(np.searchsorted(moved, moved[hold] + JUDGED_MOTION_S)), len(rec))
     if moved[end - 1] - moved[hold] < JUDGED_LEAST_S:
         return float("nan")
     part = cut(rec, first, end)
     track = functional.run(part, begin=skipped, hold=hold - first)
     rows = slice(hold - first, None)
-    turns = tuple(turn[rows] for turn in turns_of(part))
+    turns = track.q1[rows], track.q2[rows]
     heading = heading_at_samples(track, len(part))[rows]
     found = twist_deg(turns, heading, *axes)
     reference = rec.flexion_deg[hold:end] if rec.flexion_deg is not None else twist_deg(turns, heading, *whole_axes(name)[:2])
@@ -184,14 +191,14 @@ def measure_start(job: tuple[str, int, bool]) -> Start | None:
     first = settled(rec, begin) if warm else begin
     if first is None:
         return None
-    moved = np.concatenate([[0.0], people.motion_s(rec)])
+    moved = motion_before(name)
     end = min(int(np.searchsorted(moved, moved[begin] + max(WITHIN_S))), len(rec))
     track = functional.run(cut(rec, first, end), either=True, begin=begin - first)
     errors, other = errors_of(track, *whole_axes(name)[:2])
     since = moved[first + track.sample] - moved[begin]
     ready, flexion = track.ready, track.ready & track.for_flexion
     off = [flexion_error_deg(name, first, begin - first, (track.axis1[k], track.axis2[k]), first + int(track.sample[k]) + 1)
-           for k in judged_ticks(track, flexion)]
+           for k in judged_ticks(since, flexion)]
     return Start(name, float(rec.t_s[begin] - rec.t_s[0]), warm, float(since[flexion.argmax()]) if flexion.any() else np.inf,
                  float(moved[end] - moved[begin]), bool(ready.any()), bool((ready & other).any()),
                  bool((ready[:, None] & (errors > 2.0 * track.bounds_deg)).any()),
@@ -218,7 +225,7 @@ def report_starts(report: Report, starts: list[Start]) -> None:
                 "(uncertainty at most 3 deg) within so much motion, of all starts; if so long: of those after which the recording holds that "
                 "much motion. Wrong pairing and beyond (an axis more than twice its bound from that of the whole recording): starts in which "
                 "it is so at any time while ready. Flexion error: the axes of a moment at which it is ready for flexion (the first, then one "
-                f"every {JUDGED_EVERY_S:g} s) held for the next {JUDGED_MOTION_S:g} s of motion: rms against the reference, or where there "
+                f"every {JUDGED_EVERY_S:g} s of motion) held for the next {JUDGED_MOTION_S:g} s of motion: rms against the reference, or where there "
                 "is none against what the axes of the whole recording give. deg.")
     rows = []
     for kind in KINDS:
@@ -330,8 +337,7 @@ def measure(settings: Settings, report: Report) -> None:
     every_s = QUICK_EVERY_S if settings.quick else EVERY_S
     begins = [(part.name, part.begin, warm) for part in people.parts(names, every_s) for _, warm in TEMPERATURES]
     report_starts(report, [s for s in run_jobs(measure_start, begins, "people_hinge, starts", settings) if s])
-    moved = {name: np.concatenate([[0.0], people.motion_s(people.people_joint(name))]) for name in names}
     lengths = PARTS_MOTION_S[1:] if settings.quick else PARTS_MOTION_S
     jobs = [(name, begin, end, length, warm) for name in names for length in lengths
-            for begin, end in separate(moved[name], length) for _, warm in TEMPERATURES]
+            for begin, end in separate(motion_before(name), length) for _, warm in TEMPERATURES]
     report_parts(report, [p for p in run_jobs(measure_part, jobs, "people_hinge, parts", settings) if p], wholes)
