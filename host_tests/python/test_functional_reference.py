@@ -16,7 +16,7 @@ from jointcal_tools.simulate import HingeSpec, simulate_hinge  # noqa: E402
 SECONDS = 14.0
 LEANING = HingeSpec(motions=(("7", SECONDS),), rate_hz=50.0, seed=5, soft_tissue_deg=1.0, acc_bias=0.3, gyr_bias_deg_s=1.0)
 # At rest at first, so that the level frames are right from the beginning.
-EXACT = HingeSpec(motions=(("rest", 2.0), ("7", SECONDS)), rate_hz=100.0, seed=2, noise_scale=0.0)
+EXACT = HingeSpec(motions=(("rest", 2.0), ("14", SECONDS)), rate_hz=100.0, seed=2, noise_scale=0.0)
 LEAN_RAD, LEAST_LEAN_RAD = 0.08, 0.006  # turns are tied to the heading, and follow a part of it
 
 
@@ -195,9 +195,37 @@ class Derivatives(unittest.TestCase):
             lean = np.arccos(np.clip(self.joint.point.turn[b][2, 2], -1.0, 1.0))
             np.testing.assert_allclose(he, numeric, atol=fr.KAPPA * lean * 1.1 + 1e-3)
 
+    def test_slopes_of_the_nuisances_away_from_their_best(self):
+        for b in range(fr.BLOCKS):
+            p = self.moved.at(turn=(0.03, -0.02, 0.05), b=b)
+            p.heading[b] *= np.exp(0.04j)
+            away = Moved(self.joint)
+            away.point = p
+            numeric = [(away.cost(turn=1e-5 * e, b=b) - away.cost(turn=-1e-5 * e, b=b)) / 2e-5 for e in np.eye(3)]
+            found = fr.nuisance_slope(self.joint.sums, p, b)
+            np.testing.assert_allclose(found, numeric, atol=1e-6 * np.abs(fr.nuisance(self.joint.sums, p, b)).max())
+
+    def test_one_step_is_enough_near_the_minimum(self):
+        """Axes, headings and turns all off: the step of the axes ends where everything is best, but for second order."""
+        best = self.joint.point.copy()
+        for _ in range(200):
+            step = np.linalg.solve(*fr.information(self.joint.sums, best)[:2])
+            best.j1, best.j2 = fr.moved(best.j1, -self.t3(best)[:3] @ step), fr.moved(best.j2, -self.t3(best)[3:] @ step)
+            settle(self.joint, best, 1)
+        off = best.copy()
+        off.j1, off.j2 = fr.moved(best.j1, 0.01 * fr.tangents(best.j1)[:, 0]), fr.moved(best.j2, 0.02 * fr.tangents(best.j2)[:, 1])
+        off.turn = [d @ fr.turn_of(np.array([0.01, -0.02, 0.01])) for d in best.turn]
+        off.heading = [h * np.exp(0.02j) for h in best.heading]
+        fr.bounds_of(self.joint.sums, off)
+        self.assertLess(max(error_deg(off.j1, best.j1), error_deg(off.j2, best.j2)), 0.05 * np.degrees(0.02))
+
+    @staticmethod
+    def t3(point):
+        return fr.tangent_hessian(np.eye(6), point)[2]
+
     def test_information_is_that_of_eliminated_headings_and_turns(self):
         """Minima over headings and turns for axes moved by +-h, and their second differences, against the closed form."""
-        found, _ = fr.information(self.joint.sums, self.joint.point)
+        found, _, _ = fr.information(self.joint.sums, self.joint.point)
 
         def least(axes):
             p = self.moved.at(axes)

@@ -46,10 +46,12 @@ typedef struct {
     float uncertainty1_rad;         ///< 95 % bound of axis1: of what other parts of the same motion would give.
     float uncertainty2_rad;         ///< The same for axis2.
     float flexion_uncertainty_rad;  ///< Error that the axes make in the angle, rms.
-    float rate_share;   ///< Rates across the axis as a share of the rates, rms: what rigid segments would not leave.
-    float bend_rad;     ///< How far the joint bent so far, rms about its mean.
-    float sign_margin;  ///< What the other pairing leaves of the centre's motion over what this one leaves.
-    jcal_heading_t heading;                               ///< L2 to L1, now.
+    float rate_share;  ///< Rates across the axis as a share of the rates, rms: what rigid segments would not leave.
+    float bend_rad;    ///< How far the joint bent so far, rms about its mean.
+    float
+        gravity_off_m_s2;  ///< How far the mean specific force of the worse sensor is from 9.81: its inclination is off by as much.
+    float sign_margin;       ///< What the other pairing leaves of the centre's motion over what this one leaves.
+    jcal_heading_t heading;  ///< L2 to L1, now.
     jcal_vec3_t joint_to_sensor1_m;                       ///< In sensor frame 1.
     jcal_vec3_t joint_to_sensor2_m;                       ///< In sensor frame 2.
     float progress_axis1, progress_axis2, progress_sign;  ///< 0 to 1: how far each is on the way to its limit.

@@ -57,6 +57,7 @@ typedef struct {
     jcal_ready_for_t ready_for;
     float flexion_uncertainty_rad;   ///< Error that the axes make in the joint's angle, rms; a right angle if unknown.
     float bend_rad;                  ///< How far the joint bent so far, rms about its mean; 0 before anything is known.
+    float gravity_off_m_s2;          ///< As of functional.h.
     jcal_heading_t heading;          ///< Level frame of sensor 2 to that of sensor 1, now.
     bool has_levers;                 ///< The places below are known; of how well nothing is said yet.
     jcal_vec3_t joint_to_sensor1_m;  ///< In sensor frame 1.

@@ -19,7 +19,7 @@
 /// same. Distances of samples may vary; one longer than 105 ms is a gap: features start anew, the low-pass of the inclination begins
 /// again, heading and bias are kept, and the tick's epoch counts up. Time that goes back is a gap too.
 ///
-/// Cost: 0.75 KiB of state; docs/measurements/budget.md has the instructions.
+/// Cost: 0.8 KiB of state; docs/measurements/budget.md has the instructions.
 /// Source: orientation and bias in the manner of [VQF]; docs/METHOD_PEOPLE.md, section 1, derives both and the features.
 /// Threads: all calls on one sensor belong to one task, or behind the caller's lock.
 #ifndef JCAL_SENSOR_H
@@ -51,14 +51,18 @@ JCAL_MUST_CHECK jcal_status_t jcal_sensor_init(jcal_sensor_t *self);
 ///
 /// Returns:  JCAL_OK; JCAL_TICK if there are new features; JCAL_REJECTED if a component is not finite or beyond the limits above, or if
 ///           the time is that of the last reading; JCAL_ERR_ARG.
-/// Cost:     constant, about 700 instructions on a Cortex-M4F, 1,500 more if there is a tick.
+/// Cost:     constant, about 800 instructions on a Cortex-M4F, 1,500 more if there is a tick.
 jcal_status_t jcal_sensor_push(jcal_sensor_t *self, const jcal_reading_t *reading);
 
 /// The last features; they change with the next call of push that returns JCAL_TICK. Null before the first tick, and after a gap until
 /// there is one again.
 const jcal_tick_t *jcal_sensor_tick(const jcal_sensor_t *self);
 
-/// The orientation after the last reading, sensor to earth; the identity before any. That of `turn` if that reading made a tick.
+/// The orientation at the time of the last reading, sensor to earth; the identity before any.
+///
+/// A reading is the mean over the time before it: sensors filter, and average between the readings that they send. Features meet rates
+/// and specific forces of one reading, so that this delay is nothing to them; `turn` of a tick is as old as they are. The orientation
+/// here is half a sample further on. Beside optics the angle of a knee then has no lag (docs/METHOD_PEOPLE.md, section 1).
 jcal_quat_t jcal_sensor_orientation(const jcal_sensor_t *self);
 
 /// The bias of the gyroscope, rad/s; zero as long as nothing tells it.

@@ -36,7 +36,8 @@ typedef struct {
     float lever[9];  ///< B, 1/s.
     jcal_vec3_t velocity;  ///< U, m/s, in the earth frame.
     jcal_vec3_t gyr;       ///< wl, rad/s, in the sensor's frame.
-    float acc_level_m_s2;  ///< Mean of the vertical specific force over the epoch, and then over 20 s: 9.81 whatever the motion.
+    float
+        acc_level_m_s2;  ///< Mean of the vertical specific force over the epoch, and then over 20 s: 9.81 whatever the motion.
 } jcal_tick_t;
 
 #ifdef __cplusplus

@@ -127,6 +127,7 @@ jcal_status_t jcal_hinge_auto_get(const jcal_hinge_auto_t *self, jcal_hinge_auto
     out->bend_rad = functional.bend_rad;
     out->flexion_uncertainty_rad = jcal_functional_flexion_error(
         &self->functional.joint, jcal_max(out->hinge.uncertainty1_rad, out->hinge.uncertainty2_rad));
+    out->gravity_off_m_s2 = functional.gravity_off_m_s2;
     out->heading = functional.heading;
     out->has_levers = functional.has_axes;
     out->joint_to_sensor1_m = functional.joint_to_sensor1_m;

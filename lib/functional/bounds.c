@@ -72,8 +72,8 @@ void jcal_functional_bound_slope(const jcal_functional_sums_t *sums, const jcal_
     jcal_functional_grip(sums, point, b, &grip);
     jcal_functional_turn_slope(grip.n, out);
     jcal_functional_times_transposed(point->turn[b], grip.m, n);
-    const jcal_plane_t pull = jcal_plane_add(jcal_functional_turn_pull(sums, point, b), 1.0f,
-                                             jcal_functional_lever_pull(sums, point, b));
+    const jcal_plane_t pull =
+        jcal_plane_add(jcal_functional_turn_pull(sums, point, b), 1.0f, jcal_functional_lever_pull(sums, point, b));
     out[2] = n[1] - n[3] + jcal_plane_times(point->heading[b], pull).im; /* what ties heading and turn does not count */
 }
 

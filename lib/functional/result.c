@@ -58,6 +58,7 @@ jcal_status_t jcal_functional_get(const jcal_functional_t *self, jcal_functional
     if (out->has_axes) {
         say_axes(self, out);
     }
+    out->gravity_off_m_s2 = self->gravity_off;
     const bool ready = out->head.status == JCAL_READY;
     out->for_axes = ready && verdict->for_axes;
     out->for_flexion = ready && verdict->for_flexion;

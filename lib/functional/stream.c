@@ -189,15 +189,28 @@ jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *ti
     return JCAL_OK;
 }
 
-/// The estimate jumped: axes keep their sense if they can, the rest begins anew.
+/// There is another estimate, in the sense of the one before. One within its bounds is the same for all that is known: the angle goes on.
+/// Any other begins anew, and what was ready is not.
 static void take_over(jcal_functional_t *self, jcal_vec3_t was1, jcal_vec3_t was2)
 {
-    const float along = jcal_vec3_dot(was1, self->point.j1) + jcal_vec3_dot(was2, self->point.j2);
+    jcal_functional_point_t *const point = &self->point;
+    jcal_functional_verdict_t *const verdict = &self->verdict;
+    const float along = jcal_vec3_dot(was1, point->j1) + jcal_vec3_dot(was2, point->j2);
     if (along < 0.0f) {
-        self->point.j1 = jcal_vec3_scale(self->point.j1, -1.0f);
-        self->point.j2 = jcal_vec3_scale(self->point.j2, -1.0f);
+        point->j1 = jcal_vec3_scale(point->j1, -1.0f);
+        point->j2 = jcal_vec3_scale(point->j2, -1.0f);
     }
-    self->verdict.agreed = 0u;
+    const bool was_ready = verdict->status == (uint8_t)JCAL_READY;
+    const bool is_near = (jcal_sphere_angle(was1, point->j1) <= verdict->bound1_rad) &&
+                         (jcal_sphere_angle(was2, point->j2) <= verdict->bound2_rad);
+    if (was_ready && is_near) {
+        return;
+    }
+    verdict->agreed = 0u;
+    if (was_ready) {
+        verdict->status = (uint8_t)JCAL_COLLECTING;
+        verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+    }
     jcal_functional_track_begin(self);
 }
 
@@ -259,8 +272,8 @@ static void work(jcal_functional_t *self)
     } else {
         jcal_functional_judge(self);
         if (self->verdict.status == (uint8_t)JCAL_READY) {
-            if (self->kept_sign[0] == 0) { /* slips are looked for from here on, with what this estimate leaves */
-                jcal_functional_track_trust(&self->track);
+            if (self->kept_sign[0] == 0) {
+                jcal_functional_track_trust(self);
             }
             jcal_sign_keep(&self->kept_sign[0], self->point.j1, self->cfg.axis1_toward);
         }

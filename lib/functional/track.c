@@ -46,11 +46,29 @@ static uint8_t smallest(jcal_vec3_t j)
     return (uint8_t)((x <= y) ? ((x <= z) ? 0u : 2u) : ((y <= z) ? 1u : 2u));
 }
 
+/// Nothing that was said against another estimate counts.
+static void forget(jcal_functional_track_t *self)
+{
+    for (unsigned f = 0u; f < JCAL_FAMILIES; ++f) {
+        self->recent[f] = 0.0f;
+    }
+}
+
+void jcal_functional_track_trust(jcal_functional_t *self)
+{
+    jcal_functional_track_t *const track = &self->track;
+    const float size = jcal_plane_norm(track->sum);
+    forget(track);
+    track->heading = self->point.heading[0];
+    track->sum = (jcal_plane_t){size * track->heading.re, size * track->heading.im};
+    self->track.zero[0] = smallest(self->point.j1);
+    self->track.zero[1] = smallest(self->point.j2);
+}
+
 void jcal_functional_track_begin(jcal_functional_t *self)
 {
     jcal_functional_track_clear(self);
-    self->track.zero[0] = smallest(self->point.j1);
-    self->track.zero[1] = smallest(self->point.j2);
+    jcal_functional_track_trust(self);
 }
 
 /// A direction in space, horizontal part: x + i y of m v, m (3 x 3).
@@ -108,13 +126,6 @@ bool jcal_functional_track_alarm(const jcal_functional_track_t *self)
            (self->recent[JCAL_FAMILY_LEVER] > MOVED_LEVER);
 }
 
-void jcal_functional_track_trust(jcal_functional_track_t *self)
-{
-    for (unsigned f = 0u; f < JCAL_FAMILIES; ++f) {
-        self->recent[f] = 0.0f;
-    }
-}
-
 void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2,
                                float motion_s)
 {
@@ -145,7 +156,7 @@ void jcal_functional_track_clear(jcal_functional_t *self)
     self->track.sum = (jcal_plane_t){0.0f, 0.0f};
     self->track.heading = self->point.heading[0];
     self->track.known = false;
-    jcal_functional_track_trust(&self->track);
+    forget(&self->track);
 }
 
 float jcal_functional_flexion(const jcal_functional_t *self, jcal_quat_t orientation1, jcal_quat_t orientation2)

@@ -14,8 +14,9 @@ void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1
 /// True if the last seconds of motion do not fit any more: a sensor has moved.
 bool jcal_functional_track_alarm(const jcal_functional_track_t *self);
 
-/// What the last seconds said against the estimate is forgotten: it belonged to others.
-void jcal_functional_track_trust(jcal_functional_track_t *self);
+/// The estimate is ready for the first time: slips are looked for and the angle counts from here on, so that what other estimates left is
+/// forgotten and the zero is chosen again, far from both axes.
+void jcal_functional_track_trust(jcal_functional_t *self);
 
 /// There is another estimate: the heading is lost, and the angle has another zero.
 void jcal_functional_track_begin(jcal_functional_t *self);

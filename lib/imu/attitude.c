@@ -55,7 +55,7 @@ static jcal_quat_t keep_unit(jcal_quat_t q)
 jcal_vec3_t jcal_attitude_turn(jcal_attitude_t *self, jcal_vec3_t gyr_rad_s, jcal_vec3_t acc_m_s2, float dt_s,
                                float r[9])
 {
-    const jcal_vec3_t angle = jcal_vec3_scale(gyr_rad_s, dt_s);
+    const jcal_vec3_t angle = jcal_vec3_scale(jcal_vec3_add(self->gyr_rad_s, gyr_rad_s), 0.5f * dt_s);
     self->q_s_e = keep_unit(jcal_quat_mul(self->q_s_e, jcal_turn_by(angle)));
     self->gyr_rad_s = gyr_rad_s;
     jcal_turn_matrix(self->q_s_e, r);

@@ -145,7 +145,12 @@ const jcal_tick_t *jcal_sensor_tick(const jcal_sensor_t *self)
 
 jcal_quat_t jcal_sensor_orientation(const jcal_sensor_t *self)
 {
-    return (self != NULL) ? self->attitude.q_s_e : jcal_quat(1.0f, 0.0f, 0.0f, 0.0f);
+    if (self == NULL) {
+        return jcal_quat(1.0f, 0.0f, 0.0f, 0.0f);
+    }
+    const float ahead_s = self->has_last ? (0.5f * self->sample.dt_s) : 0.0f;
+    const jcal_quat_t ahead = jcal_turn_by(jcal_vec3_scale(self->attitude.gyr_rad_s, ahead_s));
+    return jcal_quat_normalise(jcal_quat_mul(self->attitude.q_s_e, ahead));
 }
 
 jcal_vec3_t jcal_sensor_gyr_bias(const jcal_sensor_t *self)

@@ -504,18 +504,21 @@ def functional_rows(sums: functional.Sums, point: functional.Point) -> dict[str,
     slopes = [functional.slope_vector(point.turn[b].T @ functional.rate_pull(sums, point, b)) for b in blocks]
     rows["turn_slopes"] = np.ravel(slopes)
     rows["nuisances"] = np.ravel([packed(functional.nuisance(sums, point, b)) for b in blocks])
+    rows["nuisance_slopes"] = np.ravel([functional.nuisance_slope(sums, point, b) for b in blocks])
     rows["couplings"] = np.ravel([functional.coupling(sums, point, b) for b in blocks])
     for _ in range(200):
         for b in blocks:
             functional.find_heading(sums, point, b)
     rows["settled"] = np.concatenate([np.ravel([[z.real, z.imag] for z in point.heading]), np.ravel(point.turn)])
-    bounds, described = functional.bounds_of(sums, point), functional.describe(sums, point)
+    described = functional.describe(sums, point)
+    u, _, vt = np.linalg.svd(functional.cross_of(sums, point).turn)
+    other, evidence = functional.rival_of(sums, point)
+    bounds = functional.bounds_of(sums, point)
     assert bounds.max() < 0.5
     rows["bounds"] = np.r_[bounds, functional.flexion_bound(float(bounds.max()), point.size, described[1])]
+    rows["home"] = point.j
     rows["described"] = np.array(described)
-    u, _, vt = np.linalg.svd(functional.cross_of(sums, point).turn)
     rows["stiffest"] = np.r_[u[:, 0], vt[0]]
-    other, evidence = functional.rival_of(sums, point)
     rows["rivals"] = np.r_[evidence, other.lack / sums.motion_s, other.j1, other.j2]
     return rows
 
@@ -529,8 +532,10 @@ FUNCTIONAL_TABLES = {
     "headings": "The best headings of both blocks while relative turns go with them.",
     "turn_slopes": "At the point: first derivative of -tr(D' M) of both blocks.",
     "nuisances": "Second derivatives by the turns of both blocks, packed.",
+    "nuisance_slopes": "First derivatives by the same.",
     "couplings": "Derivatives of the slope by the turns of both blocks: by the six components of j1 and j2 (6 x 3).",
     "settled": "Headings and relative turns that are the best for the axes.",
+    "home": "From there: j1, j2 after the last step.",
     "bounds": "There: bounds of both axes and of the angle, rad.",
     "described": "There: share, bending, rad, stiffness.",
     "stiffest": "There: the axes that lean least, by the singular vectors of X of turn.",

@@ -48,6 +48,13 @@ CWINDOW = "lib/center/window.c"
 CHAIN = "lib/chain/stream.c"
 TIE = "lib/chain/tie.c"
 KINEMATICS = "lib/sample/kinematics.c"
+ATTITUDE = "lib/imu/attitude.c"
+GYR_BIAS = "lib/imu/bias.c"
+FEATURES = "lib/imu/features.c"
+STAGE = "lib/imu/sensor.c"
+LOWPASS = "lib/imu/lowpass.h"
+TURN = "lib/imu/turn.c"
+DECAY = "lib/math/decay.c"
 
 MUTATIONS = [
     (MODEL, "out[3] = w.x * w.y;", "out[3] = w.x * w.z;", "product xy"),
@@ -586,6 +593,37 @@ MUTATIONS = [
     (TIE, "!hip->work.as.inverse.is_factored ||", "", "ties without a factor of the hip's"),
     (CJUDGE, "return inverse->is_factored;", "return true;", "a matrix without a factor"),
     (SENSOR, "return exceeds(&now[0], GYR_CLIP_MIN_RAD_S) &&", "return true &&", "a coarse reading at rest"),
+    (ATTITUDE, "jcal_quat(w, half * d.y, -half * d.x, 0.0f)", "jcal_quat(w, half * d.y, half * d.x, 0.0f)", "sense of the levelling"),
+    (ATTITUDE, "jcal_vec3_add(self->gyr_rad_s, gyr_rad_s), 0.5f * dt_s", "jcal_vec3_add(gyr_rad_s, gyr_rad_s), 0.5f * dt_s",
+     "mean of both rates"),
+    (ATTITUDE, "jcal_quat_mul(self->q_s_e, jcal_turn_by(angle))", "jcal_quat_mul(jcal_turn_by(angle), self->q_s_e)", "side of the turn"),
+    (ATTITUDE, "*mean = jcal_quat_rotate(correction, *mean);", "", "low-pass in a frame that does not turn"),
+    (ATTITUDE, "*slope = jcal_quat_rotate(correction, *slope);", "", "its second state"),
+    (ATTITUDE, "1.5f - (0.5f *", "1.5f + (0.5f *", "unit length"),
+    (LOWPASS, "level[2] = g * level[1];", "level[2] = level[1];", "coefficient of the low-pass"),
+    (LOWPASS, "(dt_s / (since_s + dt_s))", "0.0f", "running mean at the start"),
+    (LOWPASS, "x * (1.0f + (x * x * (1.0f / 3.0f)))", "x * (1.0f + (x * (1.0f / 3.0f)))", "tangent"),
+    (TURN, "(1.0f / 24.0f) -", "(1.0f / 20.0f) -", "series of the cosine"),
+    (TURN, "s = turn.im / h;", "s = turn.im;", "large turns"),
+    (TURN, "r[5] = yz - wx;", "r[5] = yz + wx;", "element of the matrix"),
+    (GYR_BIAS, "p[1] -= gain.x * pc.y;", "p[1] += gain.x * pc.y;", "covariance of the bias"),
+    (GYR_BIAS, "taken[0] - (per_s * correction_rad->x)", "taken[0] + (per_s * correction_rad->x)", "what a correction tells of the bias"),
+    (GYR_BIAS, "VERTICAL_VARIANCE * noise2", "noise2", "weight of the vertical part"),
+    (GYR_BIAS, "jcal_max(-BIAS_MAX, jcal_min(BIAS_MAX, b->x))", "b->x", "largest bias"),
+    (GYR_BIAS, "self->rest_us = rests ? lasts_us : 0u;", "self->rest_us = lasts_us;", "end of rest"),
+    (GYR_BIAS, "#define REST_US 2000000u", "#define REST_US 1500000u", "how long rest must last"),
+    (FEATURES, "0.5f * force_m_s2.x, 0.5f * force_m_s2.y", "force_m_s2.x, force_m_s2.y", "weight of the first specific force"),
+    (FEATURES, "put_sum(self->chain[V], v.x, rates->pole)", "2.0f * put(self->chain[V], v.x, rates->pole)", "trapezoidal rule"),
+    (FEATURES, "out[3u * i] = (row[1] * w.z) - (row[2] * w.y);", "out[3u * i] = (row[1] * w.z) + (row[2] * w.y);", "R [w]x"),
+    (FEATURES, "*h = keep * (before + change);", "*h = (keep * before) + change;", "high-pass"),
+    (FEATURES, "high(&h[0], now - rate[i], rates->high_keep)", "high(&h[0], now, rates->high_keep)", "first high-pass of Q"),
+    (FEATURES, "#define TICK_LOW_HZ 3.0f", "#define TICK_LOW_HZ 3.3f", "cut-off of U and B"),
+    (FEATURES, "#define LEVEL_M_S3 0.25f", "#define LEVEL_M_S3 2.5f", "pace of the level of |a|"),
+    (STAGE, "((2u * since_us) + dt_us)", "(2u * since_us)", "half a sample before a tick is due"),
+    (STAGE, "if (!self->has_tick && (since_us == dt_us))", "if (self->has_tick && (since_us == dt_us))", "the second sample of an epoch"),
+    (STAGE, "(self->has_last && (dt_us == 0u))", "(self->has_last && (dt_us == 1u))", "a time that repeats"),
+    (STAGE, "#define GAP_S JCAL_CLOCK_SLOW_S", "#define GAP_S 0.1f", "longest distance of samples"),
+    (DECAY, "p = p * (2.0f - p);\n    return", "return", "doublings of the exponential"),
 ]
 
 # Old text -> why no test can see the difference.

@@ -4,7 +4,9 @@
 #ifndef JCAL_TEST_FUNCTIONAL_FIXTURE_H
 #define JCAL_TEST_FUNCTIONAL_FIXTURE_H
 
+#include "joint/sign.h"
 #include "jointcal/functional.h"
+#include "math/scalar.h"
 #include "math/sphere.h"
 #include "unit/functional/motion.h"
 

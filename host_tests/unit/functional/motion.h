@@ -19,17 +19,17 @@
 
 /// The joint, its sensors and what it does. Fields may be changed before the first call.
 typedef struct {
-    double mount1[9], mount2[9];      ///< Sensor to segment; the axis is y of both segments.
-    double r1[3], r2[3];              ///< Joint to sensor, each in its sensor's frame, m.
-    double heading, drift_rad_s;      ///< L2 to L1 at time 0, and how it drifts.
-    double pace;                      ///< Factor of all frequencies.
-    double swing;                     ///< Factor of the joint's angle; 0: it does not bend.
-    double lift;                      ///< Factor of the centre's motion.
-    double turn;                      ///< Factor of the first segment's turns.
-    double rest_s;                    ///< So long nothing moves; the motion begins smoothly.
-    double skin_rad;                  ///< By so much sensor 2 rocks on its segment, each axis, 1 Hz.
-    double slip_s;                    ///< From this time on sensor 2 sits otherwise,
-    double slip[3];                   ///< by this rotation vector.
+    double mount1[9], mount2[9];  ///< Sensor to segment; the axis is y of both segments.
+    double r1[3], r2[3];          ///< Joint to sensor, each in its sensor's frame, m.
+    double heading, drift_rad_s;  ///< L2 to L1 at time 0, and how it drifts.
+    double pace;                  ///< Factor of all frequencies.
+    double swing;                 ///< Factor of the joint's angle; 0: it does not bend.
+    double lift;                  ///< Factor of the centre's motion.
+    double turn;                  ///< Factor of the first segment's turns.
+    double rest_s;                ///< So long nothing moves; the motion begins smoothly.
+    double skin_rad;              ///< By so much sensor 2 rocks on its segment, each axis, 1 Hz.
+    double slip_s;                ///< From this time on sensor 2 sits otherwise,
+    double slip[3];               ///< by this rotation vector.
 } hinge_t;
 
 static inline hinge_t hinge_usual(void)
@@ -54,7 +54,8 @@ static inline hinge_t hinge_usual(void)
 static inline double hinge_phase(const hinge_t *h, double t)
 {
     const double since = t - h->rest_s;
-    const double got = (since <= 0.0) ? 0.0 : ((since < 1.0) ? since * since * since * (1.0 - 0.5 * since) : since - 0.5);
+    const double got =
+        (since <= 0.0) ? 0.0 : ((since < 1.0) ? since * since * since * (1.0 - 0.5 * since) : since - 0.5);
     return h->pace * got;
 }
 
@@ -82,7 +83,8 @@ static inline void hinge_pose(const hinge_t *h, double t, double turn1[9], doubl
     const double bend[3] = {0.0, hinge_angle(h, t), 0.0};
     mat_turn(bend, step);
     mat_mul(segment, step, turn2);
-    const double rock[3] = {h->skin_rad * sin(6.1 * p), h->skin_rad * sin(6.7 * p + 1.0), h->skin_rad * sin(7.1 * p + 2.0)};
+    const double rock[3] = {h->skin_rad * sin(6.1 * p), h->skin_rad * sin(6.7 * p + 1.0),
+                            h->skin_rad * sin(7.1 * p + 2.0)};
     mat_turn(rock, step);
     mat_mul(turn2, step, turn2);
     mat_mul(turn2, h->mount2, turn2);

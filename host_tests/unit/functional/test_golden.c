@@ -258,14 +258,16 @@ static void what_blocks_take_from_the_axes(void)
             jcal_functional_bound_nuisance(&joint.sums, &joint.point, b, nuisance);
             jcal_functional_bound_coupling(&joint.sums, &joint.point, b, coupling);
             expect(&golden_nuisances[p][6 * b], nuisance, 6, SOLVE_TOL, 0.0);
+            float slope[3];
+            jcal_functional_bound_slope(&joint.sums, &joint.point, b, slope);
+            expect(&golden_nuisance_slopes[p][3 * b], slope, 3, SOLVE_TOL, size_of(&golden_nuisances[p][6 * b], 6));
             const double *const free = &golden_couplings[p][18 * b];
             const double scale = size_of(free, 18);
             for (int i = 0; i < 4; ++i) {
                 const jcal_vec3_t d = (i % 2 == 0) ? t[i / 2].u : t[i / 2].v;
                 const double *const rows = &free[9 * (i / 2)];
                 for (int k = 0; k < 3; ++k) {
-                    const double along =
-                        rows[k] * (double)d.x + rows[3 + k] * (double)d.y + rows[6 + k] * (double)d.z;
+                    const double along = rows[k] * (double)d.x + rows[3 + k] * (double)d.y + rows[6 + k] * (double)d.z;
                     TEST_ASSERT_DOUBLE_WITHIN(SOLVE_TOL * scale, along, (double)coupling[3 * i + k]);
                 }
             }
@@ -295,10 +297,10 @@ static void share_bending_and_stiffness(void)
         TEST_ASSERT_DOUBLE_WITHIN(SOLVE_TOL, g[0], (double)joint.verdict.share);
         TEST_ASSERT_DOUBLE_WITHIN(SOLVE_TOL, g[2], (double)joint.verdict.stiffness);
         TEST_ASSERT_DOUBLE_WITHIN(BEND_TOL * g[1], g[1], (double)joint.verdict.bend_rad);
-        joint.point.j1 = (jcal_vec3_t){(float)golden_stiffest[p][0], (float)golden_stiffest[p][1],
-                                       (float)golden_stiffest[p][2]};
-        joint.point.j2 = (jcal_vec3_t){(float)golden_stiffest[p][3], (float)golden_stiffest[p][4],
-                                       (float)golden_stiffest[p][5]};
+        joint.point.j1 =
+            (jcal_vec3_t){(float)golden_stiffest[p][0], (float)golden_stiffest[p][1], (float)golden_stiffest[p][2]};
+        joint.point.j2 =
+            (jcal_vec3_t){(float)golden_stiffest[p][3], (float)golden_stiffest[p][4], (float)golden_stiffest[p][5]};
         jcal_functional_describe(&joint);
         TEST_ASSERT_DOUBLE_WITHIN(SOLVE_TOL, g[1], (double)joint.verdict.bend_rad);
     }
@@ -315,6 +317,8 @@ static void bounds(void)
         const float found[2] = {joint.verdict.bound1_rad, joint.verdict.bound2_rad};
         /* what is left of the information once the blocks have taken theirs is a fifth of it: five times the tolerance */
         expect(golden_bounds[p], found, 2, 5.0 * SOLVE_TOL, 0.0);
+        expect_vector(&golden_home[p][0], joint.point.j1, 5.0 * SOLVE_TOL);
+        expect_vector(&golden_home[p][3], joint.point.j2, 5.0 * SOLVE_TOL);
         joint.search.has_estimate = true;
         TEST_ASSERT_DOUBLE_WITHIN(BEND_TOL * golden_bounds[p][2], golden_bounds[p][2],
                                   (double)jcal_functional_flexion_error(&joint, fmaxf(found[0], found[1])));

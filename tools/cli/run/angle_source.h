@@ -31,6 +31,15 @@ typedef struct {
     float heading_rad; /* of the engine; a follower has its own */
 } angle_joint_t;
 
+/// How a joint moved over the last seconds.
+typedef struct {
+    float rate2;    /* both squared rates, (rad/s)^2 */
+    float mean_rad; /* of the angle */
+    float spread2;  /* its variance, rad^2 */
+    uint64_t last_us;
+    bool has_last, has_angle;
+} angle_motion_t;
+
 typedef struct {
     bool at_end;       ///< The last row whose orientations were of use had angles.
     uint64_t rows;     ///< Rows with angles.
@@ -45,6 +54,7 @@ typedef struct {
     jcal_gate_config_t gate_config;
     angle_joint_t joint;
     jcal_heading_t own_heading;
+    angle_motion_t motion;
     float sign; /* of the axes that are written here against those of the engine */
     jcal_joint_heading_t follower;
     bool has_follower;

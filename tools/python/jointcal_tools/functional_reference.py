@@ -67,6 +67,7 @@ BOUND_FLOOR = (1.0 * DEG, 2.0 * DEG)
 BOUND_LASTING = (0.25, 1.0)
 PERSON_RATE, READING_S = 0.01, 2.5
 UNKNOWN = np.pi / 2.0
+HOME_MAX = 0.1  # longest last step of an axis, rad
 
 # Gates.
 AGREED_MIN = 3
@@ -403,6 +404,14 @@ def nuisance(sums: Sums, point: Point, b: int) -> np.ndarray:
     return out
 
 
+def nuisance_slope(sums: Sums, point: Point, b: int) -> np.ndarray:
+    """(3,): first derivative of the cost by that turn. What ties heading and turn does not count about z: both go along."""
+    n = point.turn[b].T @ rate_pull(sums, point, b)
+    out = slope_vector(n + KAPPA * point.turn[b].T @ about_z(point.heading[b]))
+    out[2] = slope_vector(n)[2] + (point.heading[b] * (turn_pull(sums, point, b) + lever_pull(sums, point, b))).imag
+    return out
+
+
 def coupling(sums: Sums, point: Point, b: int) -> np.ndarray:
     """(6, 3): derivative of the slope by that turn, by the components of j1 and j2."""
     block, d = sums.blocks[b], point.turn[b]
@@ -415,29 +424,34 @@ def coupling(sums: Sums, point: Point, b: int) -> np.ndarray:
     return out
 
 
-def information(sums: Sums, point: Point) -> tuple[np.ndarray, np.ndarray]:
-    """(4, 4) what is known of both axes when headings and relative turns are free, and the tangents (6, 4)."""
-    hessian, _, t = tangent_hessian(weighted_quadric(sums, cross_of(sums, point), point), point)
+def information(sums: Sums, point: Point) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """(4, 4) what is known of both axes when headings and relative turns are free, the slope (4,) then, and the tangents (6, 4)."""
+    hessian, slope, t = tangent_hessian(weighted_quadric(sums, cross_of(sums, point), point), point)
     for b, block in enumerate(sums.blocks):
         if block.motion_s > BLOCK_MIN_S:
             q = t.T @ coupling(sums, point, b)
             he = nuisance(sums, point, b)
             if np.linalg.eigvalsh(he)[0] <= 0.0:
-                return np.zeros((4, 4)), t
+                return np.zeros((4, 4)), slope, t
             hessian = hessian - q @ np.linalg.solve(he, q.T)
-    return hessian, t
+            slope = slope - q @ np.linalg.solve(he, nuisance_slope(sums, point, b))
+    return hessian, slope, t
 
 
 def bounds_of(sums: Sums, point: Point) -> np.ndarray:
-    """(2,) 95 % bounds of the axes, rad."""
-    hessian, _ = information(sums, point)
+    """(2,) 95 % bounds of the axes, rad. `point` makes its last step to the minimum; each bound has the length of its axis' step."""
+    hessian, slope, t = information(sums, point)
     if np.linalg.eigvalsh(hessian)[0] <= 0.0:
         return np.full(2, UNKNOWN)
     p = np.linalg.inv(hessian)
     widest = np.sqrt([np.linalg.eigvalsh(p[:2, :2])[-1], np.linalg.eigvalsh(p[2:, 2:])[-1]])
     person = min(point.size[RATE] / PERSON_RATE, 1.0)
     floor, lasting = (a + (b - a) * person for a, b in (BOUND_FLOOR, BOUND_LASTING))
-    return np.minimum(floor + widest * np.sqrt(lasting + READING_S / sums.motion_s), UNKNOWN)
+    step = -np.linalg.solve(hessian, slope)
+    way = np.linalg.norm(step.reshape(2, 2), axis=1)
+    step *= min(1.0, HOME_MAX / max(float(way.max()), 1e-300))
+    point.j1, point.j2 = moved(point.j1, t[:3] @ step), moved(point.j2, t[3:] @ step)
+    return np.minimum(floor + widest * np.sqrt(lasting + READING_S / sums.motion_s) + way, UNKNOWN)
 
 
 def flexion_bound(bound: float, size: np.ndarray, bend: float) -> float:

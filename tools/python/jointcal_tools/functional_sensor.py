@@ -79,8 +79,9 @@ def levelled(q: np.ndarray, force: np.ndarray) -> np.ndarray:
 
 
 def orientation(t_s: np.ndarray, gyr: np.ndarray, acc: np.ndarray) -> np.ndarray:
-    """(N, 4) sensor to level frame, after each sample."""
-    steps = quat.from_rotation_vectors(gyr * np.r_[0.0, np.clip(np.diff(t_s), 0.0, GAP_S)][:, None])
+    """(N, 4) sensor to level frame, after each sample: turned by the mean of both rates between two samples."""
+    means = 0.5 * (gyr + np.vstack([gyr[:1], gyr[:-1]]))
+    steps = quat.from_rotation_vectors(means * np.r_[0.0, np.clip(np.diff(t_s), 0.0, GAP_S)][:, None])
     out = np.empty((len(t_s), 4))
     strap, inclination = np.array([1.0, 0.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0, 0.0])
     for part in epochs(t_s):
