@@ -264,6 +264,7 @@ class PartVerdict:
     warm: bool
     known: bool  # there is an estimate with bounds
     ready: bool
+    other: bool  # the other pairing
     covered: tuple[bool, bool]
     errors_deg: np.ndarray
     bounds_deg: np.ndarray
@@ -294,14 +295,15 @@ def measure_part(job: tuple[str, int, int, float, bool]) -> PartVerdict | None:
     errors, other = errors_of(track, axis1, axis2)
     bounds = track.bounds_deg[-1]
     return PartVerdict(name, length_s, warm, bool((bounds < NO_BOUND_DEG).all()), bool(track.ready[-1]),
-                       covered(errors[-1], bool(other[-1]), bounds, whole), errors[-1], bounds)
+                       bool(other[-1]), covered(errors[-1], bool(other[-1]), bounds, whole), errors[-1], bounds)
 
 
 def report_parts(report: Report, parts: list[PartVerdict], wholes: list[Whole]) -> None:
     report.text("## Coverage\n\nEach recording cut into consecutive parts of 5, 10 and 20 s of motion, a fresh instance for each, its "
                 "estimate at the end of the part, ready or not, if it states bounds. The truth is not known, so parts are held "
                 "against the whole recording, whose axes are uncertain themselves: an axis is covered if the difference is within "
-                "sqrt(bound of the part^2 + bound of the whole^2), and the pairing is the same. Errors and bounds: of both axes, median, deg. "
+                "sqrt(bound of the part^2 + bound of the whole^2), and the pairing is the same; an estimate with the other pairing, whose "
+                "status is not `ready`, counts as not covered. Errors and bounds: of both axes, median, deg. "
                 "A bound of the whole recording of tens of degrees covers anything: elbows are no hinges, and say so.")
     whole = {w.name: float(w.track.bounds_deg[-1].max()) for w in wholes}
     rows = []
@@ -312,12 +314,12 @@ def report_parts(report: Report, parts: list[PartVerdict], wholes: list[Whole]) 
                 known, ready = ([p for p in mine if getattr(p, what)] for what in ("known", "ready"))
                 hits = [sum(p.covered[k] for p in known) for k in range(2)]
                 hits_ready = sum(p.covered[0] and p.covered[1] for p in ready)
-                rows.append([f"{kind}s", word, f"{length:g} s", len(mine), len(known), *(percent(hit, len(known)) for hit in hits),
+                rows.append([f"{kind}s", word, f"{length:g} s", len(mine), len(known), sum(p.other for p in known), *(percent(hit, len(known)) for hit in hits),
                              len(ready), percent(hits_ready, len(ready)),
                              number(median([error for p in known for error in p.errors_deg]), 1),
                              number(median([bound for p in known for bound in p.bounds_deg]), 1),
                              number(median([whole[p.name] for p in known]), 1)])
-    report.table(["joints", "filters", "parts of", "parts", "with bounds", "covered, axis 1", "axis 2", "ready", "both covered of these",
+    report.table(["joints", "filters", "parts of", "parts", "with bounds", "other pairing", "covered, axis 1", "axis 2", "ready", "both covered of these",
                   "error", "bound", "bound of the whole"], rows)
     for kind in KINDS:
         for word, warm in TEMPERATURES:
