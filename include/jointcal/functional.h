@@ -64,11 +64,11 @@ JCAL_MUST_CHECK jcal_status_t jcal_functional_init(jcal_functional_t *self, cons
 
 /// Takes in the ticks of both sensors of the same time: sums only.
 ///
-/// Returns:  JCAL_OK; JCAL_REJECTED if the times differ, do not increase or something is not finite; JCAL_ERR_ARG.
+/// Returns:  JCAL_OK; JCAL_REJECTED if the times differ or do not increase, or a number is one that no sensor makes; JCAL_ERR_ARG.
 /// Threads:  the task of step.
 jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2);
 
-/// One bounded slice of solving.
+/// One bounded slice of solving. One a hundredth of a second is enough with the default of slices_per_s.
 ///
 /// Returns:  JCAL_OK; JCAL_IDLE if nothing is due; JCAL_ERR_ARG.
 /// Threads:  one task; not beside add or get.

@@ -21,7 +21,7 @@ typedef struct {
     /// A direction in sensor frame 1: axis1 is reported with the sign that makes axis1 . axis1_toward positive. Zeros, the default: its
     /// largest component is positive. Both hold until `ready`; then the sign stays. Components in [-1e6, 1e6].
     jcal_vec3_t axis1_toward;
-    float slices_per_s;  ///< Slices of work per second, a quarter of it once `ready`. Range [20, 800], default 200.
+    float slices_per_s;  ///< Slices of work per second, a quarter of it once `ready`. Range [20, 800], default 100.
 } jcal_functional_config_t;
 
 /// The defaults described at each field.

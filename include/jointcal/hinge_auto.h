@@ -77,7 +77,19 @@ const char *jcal_hinge_auto_config_check(const jcal_hinge_auto_config_t *config)
 /// Errors:   JCAL_ERR_ARG (null); JCAL_ERR_CONFIG; self untouched.
 JCAL_MUST_CHECK jcal_status_t jcal_hinge_auto_init(jcal_hinge_auto_t *self, const jcal_hinge_auto_config_t *config);
 
-/// Takes in a pair of readings and works off what is due in both models.
+/// Puts a pair of readings into the inbox; step takes it out, checks it and works off what is due. Copies only: may run in an interrupt.
+///
+/// Returns:  JCAL_OK; JCAL_ERR_ARG; JCAL_ERR_FULL.
+/// Threads:  may preempt step and get, or run beside them on another core; not beside itself.
+jcal_status_t jcal_hinge_auto_push(jcal_hinge_auto_t *self, const jcal_pair_t *pair);
+
+/// Works off one pair of the inbox.
+///
+/// Returns:  what update returns of it; JCAL_IDLE if the inbox was empty; JCAL_ERR_ARG.
+/// Threads:  one task; a push may preempt it. Not beside get.
+jcal_status_t jcal_hinge_auto_step(jcal_hinge_auto_t *self);
+
+/// Takes in a pair of readings, past the inbox, and works off what is due in both models.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED (counted, see result); JCAL_ERR_ARG; JCAL_ERR_FULL never.
 /// Threads:  one task.

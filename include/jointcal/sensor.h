@@ -50,7 +50,7 @@ JCAL_MUST_CHECK jcal_status_t jcal_sensor_init(jcal_sensor_t *self);
 /// Takes in one reading.
 ///
 /// Returns:  JCAL_OK; JCAL_TICK if there are new features; JCAL_REJECTED if a component is not finite or beyond the limits above, or if
-///           the time is that of the last reading; JCAL_ERR_ARG.
+///           the time is that of the last reading; JCAL_ERR_ARG (null, or zeros that were never prepared).
 /// Cost:     constant, about 800 instructions on a Cortex-M4F, 1,500 more if there is a tick.
 jcal_status_t jcal_sensor_push(jcal_sensor_t *self, const jcal_reading_t *reading);
 

@@ -4,7 +4,9 @@
 #include "jointcal/functional_pair.h"
 #include "jointcal/hinge_auto.h"
 #include "jointcal/vec3.h"
+#include "math/clear.h"
 #include "math/scalar.h"
+#include "sample/ring.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -53,6 +55,7 @@ jcal_status_t jcal_hinge_auto_init(jcal_hinge_auto_t *self, const jcal_hinge_aut
         return JCAL_ERR_CONFIG;
     }
     const jcal_functional_config_t functional = functional_config(config);
+    jcal_clear(&self->inbox, sizeof self->inbox);
     const jcal_status_t status = jcal_hinge_init(&self->rigid, &config->hinge);
     return (status == JCAL_OK) ? jcal_functional_pair_init(&self->functional, &functional, &config->hinge.gate)
                                : status;
@@ -73,6 +76,34 @@ jcal_status_t jcal_hinge_auto_update(jcal_hinge_auto_t *self, const jcal_pair_t 
         (void)jcal_functional_reset(&self->functional.joint); /* what it learnt is of the sensors as they sat before */
     }
     return status;
+}
+
+jcal_status_t jcal_hinge_auto_push(jcal_hinge_auto_t *self, const jcal_pair_t *pair)
+{
+    if ((self == NULL) || (pair == NULL)) {
+        return JCAL_ERR_ARG;
+    }
+    uint32_t slot;
+    if (!jcal_ring_room(&self->inbox.ring, &slot)) {
+        return JCAL_ERR_FULL;
+    }
+    self->inbox.slots[slot] = *pair;
+    jcal_ring_publish(&self->inbox.ring);
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_hinge_auto_step(jcal_hinge_auto_t *self)
+{
+    if (self == NULL) {
+        return JCAL_ERR_ARG;
+    }
+    uint32_t slot;
+    if (!jcal_ring_peek(&self->inbox.ring, &slot)) {
+        return JCAL_IDLE;
+    }
+    const jcal_pair_t pair = self->inbox.slots[slot];
+    jcal_ring_release(&self->inbox.ring);
+    return jcal_hinge_auto_update(self, &pair);
 }
 
 /// True if the rates say that the segments are not rigid, so that the functional model is the one to ask.
@@ -123,6 +154,7 @@ jcal_status_t jcal_hinge_auto_get(const jcal_hinge_auto_t *self, jcal_hinge_auto
         out->model = JCAL_MODEL_FUNCTIONAL;
         say_functional(&functional, &out->hinge);
     }
+    out->hinge.head.overrun += self->inbox.ring.overrun;
     out->ready_for = purpose(out, &functional);
     out->bend_rad = functional.bend_rad;
     out->flexion_uncertainty_rad = jcal_functional_flexion_error(

@@ -5,7 +5,7 @@
 
 #include "functional/model.h"
 #include "jointcal/vec3.h"
-#include "math/chol.h"
+#include "math/chol_small.h"
 #include "math/scalar.h"
 
 #include <float.h>
@@ -125,13 +125,13 @@ void jcal_functional_step_axes(const jcal_functional_quadric_t *h, jcal_vec3_t *
     float hessian[JCAL_SYM_SIZE(4u)];
     float step[4];
     jcal_functional_tangent_hessian(h, *j1, *j2, true, hessian, step);
-    if (!jcal_chol_factor(hessian, 4u, hessian, NULL)) { /* far from a minimum: downhill without the spheres' bend */
+    if (!jcal_chol4_factor(hessian)) { /* far from a minimum: downhill without the spheres' bend */
         jcal_functional_tangent_hessian(h, *j1, *j2, false, hessian, step);
-        if (!jcal_chol_factor(hessian, 4u, hessian, NULL)) {
+        if (!jcal_chol4_factor(hessian)) {
             return;
         }
     }
-    jcal_chol_solve(hessian, 4u, step, step);
+    jcal_chol4_solve(hessian, step);
     const float length2 = (step[0] * step[0]) + (step[1] * step[1]) + (step[2] * step[2]) + (step[3] * step[3]);
     const float scale = (length2 > (STEP_MAX_RAD * STEP_MAX_RAD)) ? (-STEP_MAX_RAD / sqrtf(length2)) : -1.0f;
     const jcal_tangent_t t1 = jcal_sphere_tangent(*j1);
@@ -142,11 +142,7 @@ void jcal_functional_step_axes(const jcal_functional_quadric_t *h, jcal_vec3_t *
 
 static float dot6(const float *a, const float *b)
 {
-    float sum = 0.0f;
-    for (size_t i = 0u; i < 6u; ++i) {
-        sum += a[i] * b[i];
-    }
-    return sum;
+    return (a[0] * b[0]) + (a[1] * b[1]) + (a[2] * b[2]) + (a[3] * b[3]) + (a[4] * b[4]) + (a[5] * b[5]);
 }
 
 /// v (6) <- v brought to unit length; zero stays.
@@ -167,9 +163,9 @@ static void two_smallest(const float *factor, float *v0, float *v1)
         v1[i] = ((i % 2u) == 0u) ? 1.0f : -0.7f;
     }
     for (unsigned round = 0u; round < ROUNDS; ++round) {
-        jcal_chol_solve(factor, 6u, v0, v0);
+        jcal_chol6_solve(factor, v0);
         normalise6(v0);
-        jcal_chol_solve(factor, 6u, v1, v1);
+        jcal_chol6_solve(factor, v1);
         const float common = dot6(v0, v1);
         for (size_t i = 0u; i < 6u; ++i) {
             v1[i] -= common * v0[i];
@@ -178,22 +174,41 @@ static void two_smallest(const float *factor, float *v0, float *v1)
     }
 }
 
+/// m (6 x 6, packed) <- H, with a little more on its diagonal.
+static void joined(const jcal_functional_quadric_t *h, float *m)
+{
+    const float *const a = h->h11;
+    const float *const c = h->h22;
+    const float *const x = h->h12;
+    const float shift = (SHIFT / 6.0f) * ((a[0] + c[0]) + (a[2] + c[2]) + (a[5] + c[5]));
+    m[0] = a[0] + shift;
+    m[1] = a[1];
+    m[2] = a[2] + shift;
+    m[3] = a[3];
+    m[4] = a[4];
+    m[5] = a[5] + shift;
+    m[6] = x[0]; /* a column of h12, a row of h22 */
+    m[7] = x[3];
+    m[8] = x[6];
+    m[9] = c[0] + shift;
+    m[10] = x[1];
+    m[11] = x[4];
+    m[12] = x[7];
+    m[13] = c[1];
+    m[14] = c[2] + shift;
+    m[15] = x[2];
+    m[16] = x[5];
+    m[17] = x[8];
+    m[18] = c[3];
+    m[19] = c[4];
+    m[20] = c[5] + shift;
+}
+
 bool jcal_functional_open_axes(const jcal_functional_quadric_t *h, unsigned which, jcal_vec3_t *j1, jcal_vec3_t *j2)
 {
     float m[JCAL_SYM_SIZE(6u)];
-    float trace = 0.0f;
-    for (size_t i = 0u; i < 3u; ++i) {
-        for (size_t k = 0u; k < 3u; ++k) {
-            m[jcal_sym_at(i, k)] = h->h11[jcal_sym_at(i, k)];
-            m[jcal_sym_at(i + 3u, k + 3u)] = h->h22[jcal_sym_at(i, k)];
-            m[jcal_sym_at(i + 3u, k)] = h->h12[(3u * k) + i];
-        }
-        trace += h->h11[jcal_sym_at(i, i)] + h->h22[jcal_sym_at(i, i)];
-    }
-    for (size_t i = 0u; i < 6u; ++i) {
-        m[jcal_sym_at(i, i)] += (SHIFT / 6.0f) * trace;
-    }
-    if (!jcal_chol_factor(m, 6u, m, NULL)) {
+    joined(h, m);
+    if (!jcal_chol6_factor(m)) {
         return false;
     }
     float v[2][6];

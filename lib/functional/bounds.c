@@ -4,11 +4,12 @@
 #include "functional/bounds.h"
 
 #include "functional/axes.h"
+#include "functional/describe.h"
 #include "functional/headings.h"
 #include "functional/model.h"
 #include "jointcal/functional.h"
 #include "jointcal/vec3.h"
-#include "math/chol.h"
+#include "math/chol_small.h"
 #include "math/plane.h"
 #include "math/scalar.h"
 #include "math/sphere.h"
@@ -39,10 +40,14 @@ void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jc
     const jcal_tangent_t t2 = jcal_sphere_tangent(point->j2);
     const jcal_vec3_t left[4] = {t1.u, t1.v, point->j1, point->j1};
     const jcal_vec3_t right[4] = {point->j2, point->j2, t2.u, t2.v};
+    float rates[27];
     for (size_t i = 0u; i < 4u; ++i) {
         float m[9];
         float n[9];
-        jcal_functional_between_rates(sums->block[b].rate, left[i], right[i], scale, m);
+        if (i < 3u) { /* the last two share j1 */
+            jcal_functional_left_rates(sums->block[b].rate, left[i], scale, rates);
+        }
+        jcal_functional_right_rates(rates, right[i], m);
         jcal_functional_times_transposed(point->turn[b], m, n);
         jcal_functional_turn_slope(n, &out[3u * i]);
         const jcal_plane_t pull = {jcal_functional_between(sums->block[b].turn_re, left[i], right[i]),
@@ -51,30 +56,54 @@ void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jc
     }
 }
 
+/// What block b pulls its turn by: its grip, and turn and lever residuals seen from its heading.
+typedef struct {
+    jcal_functional_grip_t grip;
+    jcal_plane_t turn, lever;
+} pull_t;
+
+static void pull_of(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b, pull_t *out)
+{
+    jcal_functional_grip(sums, point, b, &out->grip);
+    out->turn = jcal_plane_times(point->heading[b], jcal_functional_turn_pull(sums, point, b));
+    out->lever = jcal_plane_times(point->heading[b], jcal_functional_lever_pull(sums, point, b));
+}
+
+static void nuisance_of(const pull_t *pull, float *out)
+{
+    jcal_functional_turn_hessian(pull->grip.n, out);
+    /* Heading and turn go together about z: what ties them does not count there. */
+    out[5] += jcal_max(pull->turn.re, 0.0f) + jcal_max(pull->lever.re, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
+}
+
+static void slope_of(const pull_t *pull, const float *turn, float *out)
+{
+    float n[9];
+    jcal_functional_turn_slope(pull->grip.n, out);
+    jcal_functional_times_transposed(turn, pull->grip.m, n);
+    out[2] = n[1] - n[3] + (pull->turn.im + pull->lever.im); /* what ties heading and turn does not count */
+}
+
 void jcal_functional_bound_nuisance(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                                     float *out)
 {
-    jcal_functional_grip_t grip;
-    jcal_functional_grip(sums, point, b, &grip);
-    jcal_functional_turn_hessian(grip.n, out);
-    const jcal_plane_t heading = point->heading[b];
-    const float turn = jcal_plane_times(heading, jcal_functional_turn_pull(sums, point, b)).re;
-    const float lever = jcal_plane_times(heading, jcal_functional_lever_pull(sums, point, b)).re;
-    /* Heading and turn go together about z: what ties them does not count there. */
-    out[5] += jcal_max(turn, 0.0f) + jcal_max(lever, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
+    pull_t pull;
+    pull_of(sums, point, b, &pull);
+    nuisance_of(&pull, out);
 }
 
 void jcal_functional_bound_slope(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                                  float *out)
 {
-    jcal_functional_grip_t grip;
-    float n[9];
-    jcal_functional_grip(sums, point, b, &grip);
-    jcal_functional_turn_slope(grip.n, out);
-    jcal_functional_times_transposed(point->turn[b], grip.m, n);
-    const jcal_plane_t pull =
-        jcal_plane_add(jcal_functional_turn_pull(sums, point, b), 1.0f, jcal_functional_lever_pull(sums, point, b));
-    out[2] = n[1] - n[3] + jcal_plane_times(point->heading[b], pull).im; /* what ties heading and turn does not count */
+    pull_t pull;
+    pull_of(sums, point, b, &pull);
+    slope_of(&pull, point->turn[b], out);
+}
+
+/// Share of block b in all motion.
+static float block_share(const jcal_functional_sums_t *sums, size_t b)
+{
+    return sums->block[b].motion_s / jcal_max(sums->motion_s, FLT_MIN);
 }
 
 /// hessian and slope of the verdict <- what is left of them when block b's turn is free, and where that is best.
@@ -89,16 +118,22 @@ static void take_out(jcal_functional_t *self, size_t b)
     float q[12];
     float nuisance[JCAL_SYM_SIZE(3u)];
     jcal_functional_bound_coupling(sums, point, b, q);
-    jcal_functional_bound_nuisance(sums, point, b, nuisance);
-    if (!jcal_chol_factor(nuisance, 3u, nuisance, NULL)) {
+    pull_t pull;
+    pull_of(sums, point, b, &pull);
+    nuisance_of(&pull, nuisance);
+    if (!jcal_chol3_factor(nuisance)) {
         jcal_sym_zero(hessian, 4u); /* the block is not at a minimum: nothing is known */
         return;
     }
     float off[3];
-    jcal_functional_bound_slope(sums, point, b, off);
+    slope_of(&pull, point->turn[b], off);
+    const float scale = self->verdict.block_share[b] / block_share(sums, b); /* ticks may have come in between */
     for (size_t i = 0u; i < 4u; ++i) {
-        float solved[3];
-        jcal_chol_solve(nuisance, 3u, &q[3u * i], solved);
+        float solved[3] = {q[3u * i], q[(3u * i) + 1u], q[(3u * i) + 2u]};
+        jcal_chol3_solve(nuisance, solved);
+        for (size_t k = 0u; k < 3u; ++k) {
+            solved[k] *= scale;
+        }
         self->verdict.slope[i] -= (solved[0] * off[0]) + (solved[1] * off[1]) + (solved[2] * off[2]);
         for (size_t k = 0u; k <= i; ++k) {
             const float *const qk = &q[3u * k];
@@ -121,8 +156,8 @@ static void step_home(jcal_functional_t *self, const float *factor)
 {
     jcal_functional_verdict_t *const verdict = &self->verdict;
     jcal_functional_point_t *const point = &self->point;
-    float step[4];
-    jcal_chol_solve(factor, 4u, verdict->slope, step);
+    float *const step = verdict->slope; /* not needed any more */
+    jcal_chol4_solve(factor, step);
     const float way1 = sqrtf((step[0] * step[0]) + (step[1] * step[1]));
     const float way2 = sqrtf((step[2] * step[2]) + (step[3] * step[3]));
     const float scale = -jcal_min(1.0f, HOME_MAX_RAD / jcal_max(jcal_max(way1, way2), FLT_MIN));
@@ -140,16 +175,21 @@ static void finish(jcal_functional_t *self)
     jcal_functional_verdict_t *const verdict = &self->verdict;
     verdict->bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
     verdict->bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
-    float factor[JCAL_SYM_SIZE(4u)];
-    if (jcal_chol_factor(verdict->hessian, 4u, factor, NULL)) {
-        float p[JCAL_SYM_SIZE(4u)];
-        jcal_chol_inverse(factor, 4u, p);
+    float *const factor = verdict->hessian; /* not needed any more */
+    if (jcal_chol4_factor(factor)) {
+        float p[4][4]; /* columns of the inverse */
+        for (size_t k = 0u; k < 4u; ++k) {
+            for (size_t i = 0u; i < 4u; ++i) {
+                p[k][i] = (i == k) ? 1.0f : 0.0f;
+            }
+            jcal_chol4_solve(factor, p[k]);
+        }
         const float person = jcal_min(self->point.size[JCAL_FAMILY_RATE] / PERSON_RATE, 1.0f);
         const float lasting = LASTING_RIGID + ((LASTING_PERSON - LASTING_RIGID) * person);
         const float growth = sqrtf(lasting + (READING_S / jcal_max(self->sums.motion_s, FLT_MIN)));
         const float floor_rad = FLOOR_RIGID_RAD + ((FLOOR_PERSON_RAD - FLOOR_RIGID_RAD) * person);
-        verdict->bound1_rad = jcal_min(floor_rad + (growth * widest(p[0], p[1], p[2])), JCAL_BOUND_UNKNOWN_RAD);
-        verdict->bound2_rad = jcal_min(floor_rad + (growth * widest(p[5], p[8], p[9])), JCAL_BOUND_UNKNOWN_RAD);
+        verdict->bound1_rad = jcal_min(floor_rad + (growth * widest(p[0][0], p[0][1], p[1][1])), JCAL_BOUND_UNKNOWN_RAD);
+        verdict->bound2_rad = jcal_min(floor_rad + (growth * widest(p[2][2], p[2][3], p[3][3])), JCAL_BOUND_UNKNOWN_RAD);
         step_home(self, factor);
     }
 }
@@ -173,6 +213,10 @@ void jcal_functional_bound(jcal_functional_t *self, unsigned part)
         jcal_functional_quadric(&self->sums, &x, &self->point, &h);
         jcal_functional_tangent_hessian(&h, self->point.j1, self->point.j2, true, self->verdict.hessian,
                                         self->verdict.slope);
+        jcal_functional_describe(self, &x);
+        for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
+            self->verdict.block_share[b] = block_share(&self->sums, b);
+        }
     } else if (part <= JCAL_FUNCTIONAL_BLOCKS) {
         take_out(self, part - 1u);
     } else {

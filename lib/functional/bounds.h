@@ -11,7 +11,8 @@
 /// Slices: one begins, one for each block, one ends.
 #define JCAL_FUNCTIONAL_BOUND_SLICES (2u + JCAL_FUNCTIONAL_BLOCKS)
 
-/// Slice `part`; the last one sets bound1_rad, bound2_rad and flexion_rad of the verdict. Cost: at most 650 multiply-adds.
+/// Slice `part`; the first one also describes the joint (describe.h), the last one sets bound1_rad and bound2_rad of the verdict. Cost: at
+/// most 650 multiply-adds.
 void jcal_functional_bound(jcal_functional_t *self, unsigned part);
 
 /// out (4 x 3): derivative of block b's turn slope by the tangents of both axes; the third column is that of its heading, which all

@@ -18,7 +18,7 @@ jcal_functional_config_t jcal_functional_config_default(void)
     config.max_flexion_rad = 3.0f * DEGREE;
     config.sign_hint = JCAL_SIGN_UNKNOWN;
     config.axis1_toward = jcal_vec3(0.0f, 0.0f, 0.0f);
-    config.slices_per_s = 200.0f;
+    config.slices_per_s = 100.0f;
     return config;
 }
 

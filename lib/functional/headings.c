@@ -5,7 +5,7 @@
 
 #include "functional/model.h"
 #include "jointcal/quat.h"
-#include "math/chol.h"
+#include "math/chol_small.h"
 #include "math/plane.h"
 #include "math/scalar.h"
 #include "math/sym.h"
@@ -15,17 +15,29 @@
 /// A relative turn moves by at most this in one step, rad.
 #define TURN_STEP_MAX 0.3f
 
+/// M of block b: rates of both sensors across the axes, weighted.
+static void grip_rates(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b, float *m)
+{
+    const float scale = point->weight[JCAL_FAMILY_RATE] / jcal_max(sums->rate2, FLT_MIN);
+    jcal_functional_between_rates(sums->block[b].rate, point->j1, point->j2, scale, m);
+}
+
+/// n <- D' (M + weight Rz).
+static void grip_turn(const jcal_functional_point_t *point, size_t b, const float *m, float *n)
+{
+    const float re = JCAL_FUNCTIONAL_TILT_WEIGHT * point->heading[b].re;
+    const float im = JCAL_FUNCTIONAL_TILT_WEIGHT * point->heading[b].im;
+    const float pulled[9] = {m[0] + re, m[1] - im, m[2], m[3] + im,
+                             m[4] + re, m[5],      m[6], m[7],
+                             m[8] + JCAL_FUNCTIONAL_TILT_WEIGHT};
+    jcal_functional_times_transposed(point->turn[b], pulled, n);
+}
+
 void jcal_functional_grip(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                           jcal_functional_grip_t *out)
 {
-    const float scale = point->weight[JCAL_FAMILY_RATE] / jcal_max(sums->rate2, FLT_MIN);
-    jcal_functional_between_rates(sums->block[b].rate, point->j1, point->j2, scale, out->m);
-    float pulled[9];
-    jcal_functional_about_z(point->heading[b], pulled);
-    for (size_t i = 0u; i < 9u; ++i) {
-        pulled[i] = out->m[i] + (JCAL_FUNCTIONAL_TILT_WEIGHT * pulled[i]);
-    }
-    jcal_functional_times_transposed(point->turn[b], pulled, out->n);
+    grip_rates(sums, point, b, out->m);
+    grip_turn(point, b, out->m, out->n);
 }
 
 void jcal_functional_turn_hessian(const float *n, float *out)
@@ -110,20 +122,20 @@ static void follow(float *d, jcal_plane_t by)
     }
 }
 
-/// One Newton step of the relative turn of block b.
-static void step_turn(const jcal_functional_sums_t *sums, jcal_functional_point_t *point, size_t b)
+/// One Newton step of the relative turn of block b, with its M.
+static void step_turn(jcal_functional_point_t *point, size_t b, const float *m)
 {
-    jcal_functional_grip_t grip;
-    jcal_functional_grip(sums, point, b, &grip);
+    float n[9];
     float hessian[JCAL_SYM_SIZE(3u)];
     float turn[3];
-    jcal_functional_turn_hessian(grip.n, hessian);
-    jcal_functional_turn_slope(grip.n, turn);
-    if (!jcal_chol_factor(hessian, 3u, hessian, NULL)) {
+    grip_turn(point, b, m, n);
+    jcal_functional_turn_hessian(n, hessian);
+    jcal_functional_turn_slope(n, turn);
+    if (!jcal_chol3_factor(hessian)) {
         jcal_functional_about_z(point->heading[b], point->turn[b]); /* far from a minimum: what the heading says */
         return;
     }
-    jcal_chol_solve(hessian, 3u, turn, turn);
+    jcal_chol3_solve(hessian, turn);
     const float length2 = (turn[0] * turn[0]) + (turn[1] * turn[1]) + (turn[2] * turn[2]);
     const float scale = (length2 > (TURN_STEP_MAX * TURN_STEP_MAX)) ? (-TURN_STEP_MAX / sqrtf(length2)) : -1.0f;
     for (size_t i = 0u; i < 3u; ++i) {
@@ -138,14 +150,14 @@ void jcal_functional_find_heading(const jcal_functional_sums_t *sums, jcal_funct
     if (!(sums->block[b].motion_s > JCAL_FUNCTIONAL_BLOCK_MIN_S)) {
         return;
     }
-    jcal_functional_grip_t grip;
-    jcal_functional_grip(sums, point, b, &grip);
+    float m[9];
+    grip_rates(sums, point, b, m); /* knows nothing of heading and turn */
     /* The turn E = Rz' D of the block held, D = Rz E follows the heading: tr(D' M) = tr(Rz' N), N = M E' = M D' Rz. */
     const jcal_plane_t was = point->heading[b];
     float n[4]; /* upper left of M D' */
     const float *const d = point->turn[b];
     for (size_t i = 0u; i < 2u; ++i) {
-        const float *const row = &grip.m[3u * i];
+        const float *const row = &m[3u * i];
         n[2u * i] = (row[0] * d[0]) + (row[1] * d[1]) + (row[2] * d[2]);
         n[(2u * i) + 1u] = (row[0] * d[3]) + (row[1] * d[4]) + (row[2] * d[5]);
     }
@@ -158,7 +170,7 @@ void jcal_functional_find_heading(const jcal_functional_sums_t *sums, jcal_funct
     }
     point->heading[b] = jcal_plane_direction(all);
     follow(point->turn[b], jcal_plane_against(was, point->heading[b]));
-    step_turn(sums, point, b);
+    step_turn(point, b, m);
 }
 
 void jcal_functional_turn_all(jcal_functional_point_t *point, jcal_plane_t by)

@@ -3,15 +3,10 @@
 /// Readiness of the functional joint. See functional/judge.h.
 #include "functional/judge.h"
 
-#include "functional/axes.h"
-#include "functional/model.h"
 #include "joint/hysteresis.h"
 #include "joint/sign.h"
 #include "jointcal/functional.h"
-#include "jointcal/vec3.h"
-#include "math/eig.h"
 #include "math/scalar.h"
-#include "math/sym.h"
 
 #include <float.h>
 
@@ -48,72 +43,6 @@
 #define LEVER_EVIDENCE_MIN 3.0f
 /// No axis of a person is good for angles beyond this bound, rad, whatever the angle's own bound says.
 #define BOUND_FOR_FLEXION_RAD (10.0f * DEGREE)
-
-/// trace of a packed 3 x 3.
-static float trace3(const float *m)
-{
-    return m[0] + m[2] + m[5];
-}
-
-/// j' M j of sum (w w') = tr(A) / 2 I - A, A packed.
-static float along_of(const float *a, jcal_vec3_t j)
-{
-    const float inside = (a[0] * j.x * j.x) + (a[2] * j.y * j.y) + (a[5] * j.z * j.z) +
-                         (2.0f * ((a[1] * j.x * j.y) + (a[3] * j.x * j.z) + (a[4] * j.y * j.z)));
-    return (0.5f * trace3(a)) - inside;
-}
-
-/// Largest tr(R' G) over rotations R: the sum of the singular values of G (3 x 3), the last with the sign of the determinant.
-static float best_alignment(const float *g)
-{
-    float square[JCAL_SYM_SIZE(3u)];
-    for (size_t i = 0u; i < 3u; ++i) {
-        for (size_t k = 0u; k <= i; ++k) {
-            square[jcal_sym_at(i, k)] = (g[i] * g[k]) + (g[3u + i] * g[3u + k]) + (g[6u + i] * g[6u + k]);
-        }
-    }
-    float values[3];
-    float vectors[9];
-    if (!jcal_eig_symmetric(square, 3u, values, vectors)) {
-        return 0.0f;
-    }
-    const jcal_vec3_t x = {g[0], g[1], g[2]};
-    const jcal_vec3_t y = {g[3], g[4], g[5]};
-    const jcal_vec3_t z = {g[6], g[7], g[8]};
-    const float least = sqrtf(jcal_max(values[2], 0.0f));
-    const float sign = (jcal_vec3_dot(x, jcal_vec3_cross(y, z)) < 0.0f) ? -1.0f : 1.0f;
-    return sqrtf(jcal_max(values[0], 0.0f)) + sqrtf(jcal_max(values[1], 0.0f)) + (sign * least);
-}
-
-/// How far the joint bent: from X of the orientations, the sum of the two smaller singular values of which is what bending leaves.
-static float bend_of(const float *x, float along, float motion_s)
-{
-    const jcal_vec3_t a = {x[0], x[1], x[2]};
-    const jcal_vec3_t b = {x[3], x[4], x[5]};
-    const jcal_vec3_t c = {x[6], x[7], x[8]};
-    const float squares = jcal_vec3_dot(a, a) + jcal_vec3_dot(b, b) + jcal_vec3_dot(c, c);
-    const float product = fabsf(jcal_vec3_dot(a, jcal_vec3_cross(b, c))) / jcal_max(along, FLT_MIN);
-    const float both = sqrtf(jcal_max(squares - (along * along) + (2.0f * product), 0.0f));
-    return sqrtf(jcal_max(2.0f - (both / jcal_max(motion_s, FLT_MIN)), 0.0f));
-}
-
-void jcal_functional_describe(jcal_functional_t *self)
-{
-    const jcal_functional_sums_t *const sums = &self->sums;
-    const jcal_functional_point_t *const point = &self->point;
-    jcal_functional_cross_t x;
-    jcal_functional_cross(sums, point, &x);
-    const float across =
-        2.0f * jcal_max(sums->rate2, FLT_MIN) * jcal_functional_rate_size(sums, x.rate, point->j1, point->j2);
-    const float along = along_of(sums->rate1, point->j1) + along_of(sums->rate2nd, point->j2) -
-                        (2.0f * jcal_functional_between(sums->along, point->j1, point->j2));
-    self->verdict.share = along / jcal_max(along + jcal_max(across, 0.0f), FLT_MIN);
-    self->verdict.bend_rad = bend_of(x.turn, jcal_functional_between(x.turn, point->j1, point->j2), sums->motion_s);
-    const float rate1 = 0.5f * trace3(sums->rate1);
-    const float rate2 = 0.5f * trace3(sums->rate2nd);
-    self->verdict.stiffness =
-        (rate1 + rate2 - (2.0f * best_alignment(sums->along))) / jcal_max(jcal_min(rate1, rate2), FLT_MIN);
-}
 
 bool jcal_functional_obeys(jcal_sign_hint_t hint, jcal_vec3_t axis1, jcal_vec3_t axis2)
 {

@@ -6,9 +6,6 @@
 
 #include "jointcal/private/functional/stream.h"
 
-/// What the sums say of the joint itself: share, bend_rad and stiffness of the verdict. Cost: about 600 multiply-adds.
-void jcal_functional_describe(jcal_functional_t *self);
-
 /// Status, reason, weak and hint of the verdict.
 void jcal_functional_judge(jcal_functional_t *self);
 

@@ -3,7 +3,7 @@
 /// The levers of the functional joint. See functional/levers.h.
 #include "functional/levers.h"
 
-#include "math/chol.h"
+#include "math/chol_small.h"
 #include "math/scalar.h"
 #include "math/sym.h"
 
@@ -17,37 +17,56 @@ static void normal_equations(const jcal_functional_sums_t *sums, const float *x,
 {
     const float *const s1 = sums->lever1;
     const float *const s2 = sums->lever2;
-    for (size_t i = 0u; i < 3u; ++i) {
-        g[i] = s1[jcal_sym_at(i + 1u, 0u)] - x[4u * (i + 1u)];
-        g[i + 3u] = s2[jcal_sym_at(i + 1u, 0u)] - x[i + 1u];
-        for (size_t k = 0u; k < 3u; ++k) {
-            if (k <= i) {
-                h[jcal_sym_at(i, k)] = s1[jcal_sym_at(i + 1u, k + 1u)];
-                h[jcal_sym_at(i + 3u, k + 3u)] = s2[jcal_sym_at(i + 1u, k + 1u)];
-            }
-            h[jcal_sym_at(i + 3u, k)] = -x[(4u * (k + 1u)) + i + 1u];
-        }
-    }
+    g[0] = s1[1] - x[4];
+    g[1] = s1[3] - x[8];
+    g[2] = s1[6] - x[12];
+    g[3] = s2[1] - x[1];
+    g[4] = s2[3] - x[2];
+    g[5] = s2[6] - x[3];
+    h[0] = s1[2]; /* S1 but for its first row */
+    h[1] = s1[4];
+    h[2] = s1[5];
+    h[3] = s1[7];
+    h[4] = s1[8];
+    h[5] = s1[9];
+    h[6] = -x[5]; /* a column of X, a row of S2 */
+    h[7] = -x[9];
+    h[8] = -x[13];
+    h[9] = s2[2];
+    h[10] = -x[6];
+    h[11] = -x[10];
+    h[12] = -x[14];
+    h[13] = s2[4];
+    h[14] = s2[5];
+    h[15] = -x[7];
+    h[16] = -x[11];
+    h[17] = -x[15];
+    h[18] = s2[7];
+    h[19] = s2[8];
+    h[20] = s2[9];
 }
 
 /// x' S x of [1; -r], S (4 x 4, packed).
 static float left_of(const float *s, const float *r)
 {
-    const float v[4] = {1.0f, -r[0], -r[1], -r[2]};
-    return jcal_sym_quadratic(s, 4u, v);
+    const jcal_vec3_t v = {-r[0], -r[1], -r[2]};
+    const float below = (s[1] * v.x) + ((s[3] + (s[4] * v.x)) * v.y) + ((s[6] + (s[7] * v.x) + (s[8] * v.y)) * v.z);
+    const float diagonal = s[0] + (s[2] * v.x * v.x) + (s[5] * v.y * v.y) + (s[9] * v.z * v.z);
+    return diagonal + (2.0f * below);
+}
+
+/// row [1; v].
+static inline float row_times(const float *row, jcal_vec3_t v)
+{
+    return row[0] + (row[1] * v.x) + (row[2] * v.y) + (row[3] * v.z);
 }
 
 /// [1; -r1]' X [1; -r2].
 static float product_of(const float *x, const float *r1, const float *r2)
 {
-    const float v1[4] = {1.0f, -r1[0], -r1[1], -r1[2]};
-    const float v2[4] = {1.0f, -r2[0], -r2[1], -r2[2]};
-    float sum = 0.0f;
-    for (size_t i = 0u; i < 4u; ++i) {
-        const float *const row = &x[4u * i];
-        sum += v1[i] * ((row[0] * v2[0]) + (row[1] * v2[1]) + (row[2] * v2[2]) + (row[3] * v2[3]));
-    }
-    return sum;
+    const jcal_vec3_t v = {-r2[0], -r2[1], -r2[2]};
+    return row_times(x, v) - (r1[0] * row_times(&x[4], v)) - (r1[1] * row_times(&x[8], v)) -
+           (r1[2] * row_times(&x[12], v));
 }
 
 void jcal_functional_levers(const jcal_functional_sums_t *sums, const float *x, jcal_functional_point_t *point)
@@ -55,16 +74,13 @@ void jcal_functional_levers(const jcal_functional_sums_t *sums, const float *x, 
     float h[JCAL_SYM_SIZE(UNKNOWNS)];
     float r[UNKNOWNS];
     normal_equations(sums, x, h, r);
-    float trace = 0.0f;
-    for (size_t i = 0u; i < UNKNOWNS; ++i) {
-        trace += h[jcal_sym_at(i, i)];
-    }
+    const float trace = h[0] + h[2] + h[5] + h[9] + h[14] + h[20];
     const float ridge = (RIDGE / (float)UNKNOWNS * trace) + FLT_MIN;
     for (size_t i = 0u; i < UNKNOWNS; ++i) {
         h[jcal_sym_at(i, i)] += ridge;
     }
-    if (jcal_chol_factor(h, UNKNOWNS, h, NULL)) {
-        jcal_chol_solve(h, UNKNOWNS, r, r);
+    if (jcal_chol6_factor(h)) {
+        jcal_chol6_solve(h, r);
     } else {
         for (size_t i = 0u; i < UNKNOWNS; ++i) {
             r[i] = 0.0f;

@@ -33,16 +33,28 @@ void jcal_functional_level_rates(float *out, const float *rate, jcal_plane_t hea
     }
 }
 
+/// sum + sum over b of d[b] row[b][.], row (3 x 3).
+static inline jcal_vec3_t free_row(jcal_vec3_t sum, const float *row, jcal_vec3_t d)
+{
+    const jcal_vec3_t out = {sum.x + ((d.x * row[0]) + (d.y * row[3]) + (d.z * row[6])),
+                             sum.y + ((d.x * row[1]) + (d.y * row[4]) + (d.z * row[7])),
+                             sum.z + ((d.x * row[2]) + (d.y * row[5]) + (d.z * row[8]))};
+    return out;
+}
+
 void jcal_functional_free_rates(float *out, const float *rate, const float *turn)
 {
-    for (size_t a = 0u; a < 3u; ++a) {
-        const float *const d = &turn[3u * a];
-        for (size_t i = 0u; i < 3u; ++i) {
-            const float *const row = &rate[9u * ((3u * a) + i)];
-            out[3u * i] += (d[0] * row[0]) + (d[1] * row[3]) + (d[2] * row[6]);
-            out[(3u * i) + 1u] += (d[0] * row[1]) + (d[1] * row[4]) + (d[2] * row[7]);
-            out[(3u * i) + 2u] += (d[0] * row[2]) + (d[1] * row[5]) + (d[2] * row[8]);
-        }
+    const jcal_vec3_t x = {turn[0], turn[1], turn[2]};
+    const jcal_vec3_t y = {turn[3], turn[4], turn[5]};
+    const jcal_vec3_t z = {turn[6], turn[7], turn[8]};
+    for (size_t i = 0u; i < 3u; ++i) {
+        float *const to = &out[3u * i];
+        const jcal_vec3_t was = {to[0], to[1], to[2]};
+        const jcal_vec3_t so_far = free_row(free_row(was, &rate[9u * i], x), &rate[27u + (9u * i)], y);
+        const jcal_vec3_t all = free_row(so_far, &rate[54u + (9u * i)], z);
+        to[0] = all.x;
+        to[1] = all.y;
+        to[2] = all.z;
     }
 }
 
@@ -108,26 +120,48 @@ void jcal_functional_about_z(jcal_plane_t heading, float *out)
 
 void jcal_functional_times_transposed(const float *a, const float *b, float *out)
 {
+    const jcal_vec3_t x = {b[0], b[1], b[2]};
+    const jcal_vec3_t y = {b[3], b[4], b[5]};
+    const jcal_vec3_t z = {b[6], b[7], b[8]};
     for (size_t i = 0u; i < 3u; ++i) {
-        for (size_t k = 0u; k < 3u; ++k) {
-            out[(3u * i) + k] = (a[i] * b[k]) + (a[3u + i] * b[3u + k]) + (a[6u + i] * b[6u + k]);
+        const jcal_vec3_t d = {a[i], a[3u + i], a[6u + i]};
+        out[3u * i] = (d.x * x.x) + (d.y * y.x) + (d.z * z.x);
+        out[(3u * i) + 1u] = (d.x * x.y) + (d.y * y.y) + (d.z * z.y);
+        out[(3u * i) + 2u] = (d.x * x.z) + (d.y * y.z) + (d.z * z.z);
+    }
+}
+
+void jcal_functional_left_rates(const float *rate, jcal_vec3_t j1, float scale, float *out)
+{
+    const jcal_vec3_t s = {scale * j1.x, scale * j1.y, scale * j1.z};
+    for (size_t a = 0u; a < 3u; ++a) {
+        const float *const r = &rate[27u * a];
+        float *const to = &out[9u * a];
+        for (size_t k = 0u; k < 9u; ++k) {
+            to[k] = (s.x * r[k]) + (s.y * r[k + 9u]) + (s.z * r[k + 18u]);
         }
+    }
+}
+
+void jcal_functional_right_rates(const float *left, jcal_vec3_t j2, float *out)
+{
+    for (size_t i = 0u; i < 9u; ++i) {
+        const float *const at = &left[3u * i];
+        out[i] = (at[0] * j2.x) + (at[1] * j2.y) + (at[2] * j2.z);
     }
 }
 
 void jcal_functional_between_rates(const float *rate, jcal_vec3_t j1, jcal_vec3_t j2, float scale, float *out)
 {
-    const float s1[3] = {scale * j1.x, scale * j1.y, scale * j1.z};
+    const jcal_vec3_t s = {scale * j1.x, scale * j1.y, scale * j1.z};
     for (size_t a = 0u; a < 3u; ++a) {
-        const float *const r0 = &rate[27u * a];
-        const float *const r1 = &rate[(27u * a) + 9u];
-        const float *const r2 = &rate[(27u * a) + 18u];
+        const float *r = &rate[27u * a];
         for (size_t b = 0u; b < 3u; ++b) {
-            const size_t k = 3u * b;
-            const float x = (s1[0] * r0[k]) + (s1[1] * r1[k]) + (s1[2] * r2[k]);
-            const float y = (s1[0] * r0[k + 1u]) + (s1[1] * r1[k + 1u]) + (s1[2] * r2[k + 1u]);
-            const float z = (s1[0] * r0[k + 2u]) + (s1[1] * r1[k + 2u]) + (s1[2] * r2[k + 2u]);
+            const float x = (s.x * r[0]) + (s.y * r[9]) + (s.z * r[18]);
+            const float y = (s.x * r[1]) + (s.y * r[10]) + (s.z * r[19]);
+            const float z = (s.x * r[2]) + (s.y * r[11]) + (s.z * r[20]);
             out[(3u * a) + b] = (x * j2.x) + (y * j2.y) + (z * j2.z);
+            r = &r[3];
         }
     }
 }

@@ -68,6 +68,11 @@ void jcal_functional_times_transposed(const float *a, const float *b, float *out
 /// out (3 x 3) <- scale times the rates across j1 and j2: rate[a][.][b][.] between j1 and j2. Cost: 108 multiply-adds.
 void jcal_functional_between_rates(const float *rate, jcal_vec3_t j1, jcal_vec3_t j2, float scale, float *out);
 
+/// The same in two parts, for axes that share one of them: out (3 x 3 x 3) <- scale times rate[a][.][b][k] with j1, 81 multiply-adds;
+/// out (3 x 3) <- that with j2, 27 multiply-adds.
+void jcal_functional_left_rates(const float *rate, jcal_vec3_t j1, float scale, float *out);
+void jcal_functional_right_rates(const float *left, jcal_vec3_t j2, float *out);
+
 /// Mean squares of the turn and rate residuals at axes, without floors, given X.
 float jcal_functional_turn_size(const jcal_functional_sums_t *sums, const float *x, jcal_vec3_t j1, jcal_vec3_t j2);
 float jcal_functional_rate_size(const jcal_functional_sums_t *sums, const float *x, jcal_vec3_t j1, jcal_vec3_t j2);

@@ -7,8 +7,18 @@
 #include <math.h>
 #include <stddef.h>
 
-/// Slices in one update: those of a tick at 10 samples a second.
+/// Readings further apart than this, us, have as many slices between them as fit.
+#define LONGEST_US 1000000u
+/// Most slices in one update.
 #define SLICES_MAX 16u
+
+/// Slices that may be done for a reading so long after the one before: those of a tick are spread over its readings.
+static unsigned slices_for(float slices_per_s, uint64_t dt_us)
+{
+    const float dt_s = (dt_us < LONGEST_US) ? ((float)(uint32_t)dt_us * 1e-6f) : 1.0f;
+    const float due = 1.0f + (0.9f * slices_per_s * dt_s); /* less: samples are not evenly apart */
+    return (due < (float)SLICES_MAX) ? (unsigned)due : SLICES_MAX;
+}
 
 jcal_status_t jcal_functional_pair_init(jcal_functional_pair_t *self, const jcal_functional_config_t *config,
                                         const jcal_gate_config_t *limits)
@@ -21,6 +31,7 @@ jcal_status_t jcal_functional_pair_init(jcal_functional_pair_t *self, const jcal
         return JCAL_ERR_CONFIG;
     }
     self->limits = gate;
+    self->last_us = 0u;
     jcal_gate_init(&self->gate);
     jcal_status_t status = jcal_sensor_init(&self->sensor1);
     status = (status == JCAL_OK) ? jcal_sensor_init(&self->sensor2) : status;
@@ -51,7 +62,9 @@ jcal_status_t jcal_functional_pair_update(jcal_functional_pair_t *self, const jc
     if ((of1 == JCAL_TICK) && (of2 == JCAL_TICK)) {
         (void)jcal_functional_add(&self->joint, jcal_sensor_tick(&self->sensor1), jcal_sensor_tick(&self->sensor2));
     }
-    for (unsigned k = 0u; k < SLICES_MAX; ++k) {
+    const unsigned most = slices_for(self->joint.cfg.slices_per_s, pair->t_us - self->last_us);
+    self->last_us = pair->t_us;
+    for (unsigned k = 0u; k < most; ++k) {
         if (jcal_functional_step(&self->joint) != JCAL_OK) {
             break;
         }

@@ -9,6 +9,7 @@
 #include "functional/model.h"
 #include "functional/sums.h"
 #include "jointcal/vec3.h"
+#include "math/clear.h"
 #include "math/scalar.h"
 
 #include <float.h>
@@ -36,7 +37,7 @@ static void cross_other(const jcal_functional_t *self, jcal_functional_cross_t *
 static void begin(jcal_functional_t *self)
 {
     jcal_functional_point_t *const other = &self->search.trial;
-    *other = self->point;
+    jcal_copy(other, &self->point, sizeof *other);
     other->j2 = jcal_vec3_scale(other->j2, -1.0f);
     float x[16];
     jcal_functional_cross_lever(&self->sums, &self->point, x);
@@ -59,7 +60,8 @@ static void step(jcal_functional_t *self)
 static void compare(jcal_functional_t *self)
 {
     const jcal_functional_point_t *const other = &self->search.trial;
-    jcal_functional_point_t level = self->point; /* the estimate without relative turns, as its rival is */
+    jcal_functional_point_t level; /* the estimate without relative turns, as its rival is */
+    jcal_copy(&level, &self->point, sizeof level);
     jcal_functional_cross_t x;
     jcal_functional_cross_turn(&self->sums, &level, x.turn);
     jcal_functional_cross_level(&self->sums, &level, x.rate);

@@ -7,11 +7,11 @@
 #include "functional/headings.h"
 #include "functional/levers.h"
 #include "functional/model.h"
+#include "math/clear.h"
 #include "math/plane.h"
 
 /// Headings that are tried, 45 deg apart.
 #define HEADINGS 8u
-#define ROUND_PARTS 4u
 
 /// Logarithm of the odds that another solution must be ahead by before it is taken.
 #define AHEAD 0.5f
@@ -36,7 +36,9 @@ void jcal_functional_round(const jcal_functional_sums_t *sums, jcal_functional_p
         jcal_functional_step_axes(&h, &point->j1, &point->j2);
         jcal_functional_measure(sums, &x, point);
     } else {
-        jcal_functional_find_heading(sums, point, part - 2u);
+        for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
+            jcal_functional_find_heading(sums, point, b);
+        }
     }
 }
 
@@ -54,7 +56,7 @@ static void begin(jcal_functional_search_t *self, const jcal_functional_sums_t *
                   const jcal_functional_point_t *estimate)
 {
     jcal_functional_point_t *const trial = &self->trial;
-    *trial = *estimate;
+    jcal_copy(trial, estimate, sizeof *trial);
     jcal_functional_turn_all(trial, eighth(self->turn));
     trial->weight[JCAL_FAMILY_TURN] = 1.0f / TURN_GUESS;
     trial->weight[JCAL_FAMILY_RATE] = 1.0f / RATE_GUESS;
@@ -75,7 +77,7 @@ bool jcal_functional_try(jcal_functional_search_t *self, const jcal_functional_s
         begin(self, sums, estimate);
         return false;
     }
-    jcal_functional_round(sums, &self->trial, (part - 1u) % ROUND_PARTS);
+    jcal_functional_round(sums, &self->trial, (part - 1u) % JCAL_FUNCTIONAL_ROUND_SLICES);
     if (part < (JCAL_FUNCTIONAL_TRIAL_SLICES - 1u)) {
         return false;
     }
@@ -83,7 +85,7 @@ bool jcal_functional_try(jcal_functional_search_t *self, const jcal_functional_s
     const float ahead = sums->motion_s * (estimate->energy - self->trial.energy);
     const bool is_better = !self->has_estimate || (ahead > AHEAD);
     if (is_better) {
-        *estimate = self->trial;
+        jcal_copy(estimate, &self->trial, sizeof *estimate);
         self->has_estimate = true;
     }
     self->turn = (uint8_t)((self->turn + 1u) % JCAL_FUNCTIONAL_TRIALS);

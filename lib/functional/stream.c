@@ -3,6 +3,7 @@
 /// The functional joint: ticks into sums, and the schedule of the work. Method: docs/METHOD_PEOPLE.md.
 #include "functional/axes.h"
 #include "functional/bounds.h"
+#include "functional/describe.h"
 #include "functional/headings.h"
 #include "functional/judge.h"
 #include "functional/rival.h"
@@ -32,24 +33,32 @@
 #define MOTION_MAX_S 60.0f
 #define MOTION_MAX_BEFORE_S 20.0f
 
-/// Time from one judgement to the next, s, and what a slice costs once ready.
+/// Time after a block was closed within which sums are halved, s: next to nothing of the new one is lost.
+#define FADE_WITHIN_S 1.0f
+
+/// Time from one judgement to the next, s; once ready, and what a slice costs then. Slips are looked for at every tick, and bounds that
+/// grow are seen early enough.
 #define JUDGE_EVERY_S 0.25f
+#define JUDGE_READY_EVERY_S 1.0f
 #define PRICE_READY 4.0f
-/// Slices that may be saved up, and ticks further apart than this, s, have nothing between them.
+/// Slices that may be saved up.
 #define CREDIT_MAX 8.0f
+
+/// Longest distance of two ticks, s: sensor.h makes them at most 0.16 s apart. Largest sum of the squares of a tick's numbers: rates of
+/// 200 rad/s and velocities of 1600 m/s, the limits of sensor.h, make 4e6.
 #define TICK_MAX_S 0.4f
+#define SQUARES_MAX 1e7f
 
 /// Evidence at which the other pairing takes over.
 #define EVIDENCE_TURN (-1.0f)
 
-/// Slices of a judgement: two rounds, a trial while headings may be begun anew, the other pairing, bounds, two of judging.
+/// Slices of a judgement: two rounds, a trial while headings may be begun anew, the other pairing, bounds, judging.
 enum {
-    ROUNDS_END = 8,
+    ROUNDS_END = 2 * JCAL_FUNCTIONAL_ROUND_SLICES,
     TRIAL_END = ROUNDS_END + JCAL_FUNCTIONAL_TRIAL_SLICES,
     RIVAL_END = TRIAL_END + JCAL_FUNCTIONAL_RIVAL_SLICES,
     BOUNDS_END = RIVAL_END + JCAL_FUNCTIONAL_BOUND_SLICES,
-    DESCRIBED = BOUNDS_END,
-    JUDGED,
+    JUDGED = BOUNDS_END,
     IDLE
 };
 
@@ -78,12 +87,15 @@ static void clear(jcal_functional_t *self)
 /// A sensor has moved: everything is learnt anew.
 static void begin_anew(jcal_functional_t *self)
 {
-    const jcal_functional_t was = *self;
+    const uint64_t last_us = self->last_us;
+    const uint32_t ticks = self->ticks;
+    const uint32_t epoch1 = self->epoch1;
+    const uint32_t epoch2 = self->epoch2;
     clear(self);
-    self->last_us = was.last_us;
-    self->ticks = was.ticks;
-    self->epoch1 = was.epoch1;
-    self->epoch2 = was.epoch2;
+    self->last_us = last_us;
+    self->ticks = ticks;
+    self->epoch1 = epoch1;
+    self->epoch2 = epoch2;
     self->has_tick = true;
     self->verdict.status = (uint8_t)JCAL_MOVED;
 }
@@ -106,15 +118,23 @@ jcal_status_t jcal_functional_reset(jcal_functional_t *self)
     return (self == NULL) ? JCAL_ERR_ARG : jcal_functional_init(self, &self->cfg);
 }
 
-/// All numbers of a tick summed: NaN or infinite if one of them is.
-static bool is_finite(const jcal_tick_t *tick)
+/// Sum of the squares of a matrix (3 x 3).
+static float squares(const float *m)
 {
-    float sum = tick->dt_s + tick->gyr.x + tick->gyr.y + tick->gyr.z + tick->acc_level_m_s2;
-    for (size_t i = 0u; i < 9u; ++i) {
-        sum += (0.0f * tick->turn[i]) + (0.0f * tick->rate[i]) + (0.0f * tick->lever[i]);
+    float sum = 0.0f;
+    for (size_t i = 0u; i < 9u; i += 3u) {
+        sum += (m[i] * m[i]) + (m[i + 1u] * m[i + 1u]) + (m[i + 2u] * m[i + 2u]);
     }
-    sum += tick->velocity.x + tick->velocity.y + tick->velocity.z;
-    return jcal_is_finite(sum);
+    return sum;
+}
+
+/// True if a tick is one that a sensor can make: its numbers are finite, and no product of them overflows.
+static bool is_possible(const jcal_tick_t *tick)
+{
+    const float all = squares(tick->turn) + squares(tick->rate) + squares(tick->lever) +
+                      jcal_vec3_dot(tick->velocity, tick->velocity) + jcal_vec3_dot(tick->gyr, tick->gyr) +
+                      (tick->acc_level_m_s2 * tick->acc_level_m_s2);
+    return (all <= SQUARES_MAX) && (tick->dt_s > 0.0f) && (tick->dt_s <= TICK_MAX_S);
 }
 
 /// Features began anew: the headings of before are not those of now.
@@ -125,11 +145,11 @@ static void cut(jcal_functional_t *self)
         jcal_clear(&self->sums, sizeof self->sums);
         jcal_clear(&self->search, sizeof self->search);
         self->motion_s = 0.0f;
-        self->slice = (uint8_t)IDLE;
     } else if (self->sums.block[0].motion_s > 0.0f) {
         self->merged = self->merged || (self->sums.block[1].motion_s > 0.0f);
         jcal_functional_sums_close(&self->sums, &self->point);
     }
+    self->slice = (uint8_t)IDLE; /* a judgement would be of other blocks than it began with */
     jcal_functional_track_clear(self);
 }
 
@@ -147,14 +167,6 @@ static void add_up(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal
     self->motion_s += weights.motion_s;
     jcal_functional_sums_add(&self->sums, tick1, tick2, &weights);
     jcal_functional_track_add(self, tick1, tick2, weights.motion_s);
-    if (jcal_functional_sums_full(&self->sums)) {
-        self->merged = self->merged || (self->sums.block[1].motion_s > 0.0f);
-        jcal_functional_sums_close(&self->sums, &self->point);
-        const bool was_ready = self->kept_sign[0] != 0;
-        if (self->sums.motion_s > (was_ready ? MOTION_MAX_S : MOTION_MAX_BEFORE_S)) {
-            jcal_functional_sums_fade(&self->sums, 0.5f);
-        }
-    }
 }
 
 jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
@@ -163,13 +175,10 @@ jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *ti
         return JCAL_ERR_ARG;
     }
     const bool in_order = !self->has_tick || (tick1->t_us > self->last_us);
-    if ((tick1->t_us != tick2->t_us) || !in_order || !is_finite(tick1) || !is_finite(tick2)) {
+    if ((tick1->t_us != tick2->t_us) || !in_order || !is_possible(tick1) || !is_possible(tick2)) {
         return JCAL_REJECTED;
     }
-    const bool anew = !self->has_tick || (tick1->epoch != self->epoch1) || (tick2->epoch != self->epoch2);
-    if (anew && self->has_tick) {
-        cut(self);
-    }
+    const bool goes_on = !self->has_tick || ((tick1->epoch == self->epoch1) && (tick2->epoch == self->epoch2));
     self->has_tick = true;
     self->epoch1 = tick1->epoch;
     self->epoch2 = tick2->epoch;
@@ -178,11 +187,12 @@ jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *ti
     const float off1 = fabsf(tick1->acc_level_m_s2 - 9.81f);
     const float off2 = fabsf(tick2->acc_level_m_s2 - 9.81f);
     self->gravity_off = jcal_max(off1, off2);
-    add_up(self, tick1, tick2);
-    if ((self->kept_sign[0] != 0) && jcal_functional_track_alarm(&self->track)) {
-        begin_anew(self);
+    if (goes_on) {
+        add_up(self, tick1, tick2);
+    } else {
+        cut(self); /* work enough for one tick, which is left out */
     }
-    const float period_s = jcal_min(tick1->dt_s, TICK_MAX_S);
+    const float period_s = tick1->dt_s;
     const float price = (self->verdict.status == (uint8_t)JCAL_READY) ? PRICE_READY : 1.0f;
     self->credit = jcal_min(self->credit + (period_s * self->cfg.slices_per_s / price), CREDIT_MAX);
     self->since_s += period_s;
@@ -260,16 +270,15 @@ static void work(jcal_functional_t *self)
 {
     const unsigned slice = self->slice;
     if (slice < ROUNDS_END) {
-        jcal_functional_round(&self->sums, &self->point, slice % 4u);
+        jcal_functional_round(&self->sums, &self->point, slice % JCAL_FUNCTIONAL_ROUND_SLICES);
     } else if (slice < TRIAL_END) {
         try_other(self);
     } else if (slice < RIVAL_END) {
         look_at_rival(self);
     } else if (slice < BOUNDS_END) {
         jcal_functional_bound(self, slice - RIVAL_END);
-    } else if (slice == DESCRIBED) {
-        jcal_functional_describe(self);
     } else {
+        jcal_functional_stiffness(self);
         jcal_functional_judge(self);
         if (self->verdict.status == (uint8_t)JCAL_READY) {
             if (self->kept_sign[0] == 0) {
@@ -281,16 +290,44 @@ static void work(jcal_functional_t *self)
     self->slice = next_of(self, slice);
 }
 
+/// What is due beside the judgement, and not in the midst of one; false if nothing is.
+static bool tend(jcal_functional_t *self)
+{
+    const bool was_ready = self->kept_sign[0] != 0;
+    if (was_ready && jcal_functional_track_alarm(&self->track)) {
+        begin_anew(self);
+        return true;
+    }
+    if (self->slice < (uint8_t)IDLE) {
+        return false;
+    }
+    if (jcal_functional_sums_full(&self->sums)) {
+        self->merged = self->merged || (self->sums.block[1].motion_s > 0.0f);
+        jcal_functional_sums_close(&self->sums, &self->point);
+        return true;
+    }
+    const bool is_new = self->sums.block[0].time_s < FADE_WITHIN_S;
+    if (is_new && (self->sums.motion_s > (was_ready ? MOTION_MAX_S : MOTION_MAX_BEFORE_S))) {
+        jcal_functional_sums_fade(&self->sums, 0.5f);
+        return true;
+    }
+    return false;
+}
+
 jcal_status_t jcal_functional_step(jcal_functional_t *self)
 {
     if (self == NULL) {
         return JCAL_ERR_ARG;
     }
+    if (tend(self)) {
+        return JCAL_OK;
+    }
     if (!(self->credit >= 1.0f) || !(self->motion_s >= MOTION_FIRST_S)) {
         return JCAL_IDLE;
     }
     if (self->slice >= (uint8_t)IDLE) {
-        if (!(self->since_s >= JUDGE_EVERY_S)) {
+        const bool is_ready = self->verdict.status == (uint8_t)JCAL_READY;
+        if (!(self->since_s >= (is_ready ? JUDGE_READY_EVERY_S : JUDGE_EVERY_S))) {
             return JCAL_IDLE;
         }
         self->since_s = 0.0f;

@@ -4,8 +4,8 @@
 #include "functional/sums.h"
 
 #include "functional/model.h"
+#include "jointcal/vec3.h"
 #include "math/clear.h"
-#include "math/sym.h"
 
 #include <stddef.h>
 
@@ -13,87 +13,134 @@
 #define BLOCK_S 5.0f
 #define BLOCK_MOTION_S 0.4f
 
-/// sum (n) <- sum + weight v, v (n).
-static void add_scaled(float *sum, float weight, const float *v, size_t n)
+/// Column k of a matrix (3 x 3).
+static inline jcal_vec3_t column(const float *m, size_t k)
 {
-    for (size_t i = 0u; i < n; ++i) {
-        sum[i] += weight * v[i];
-    }
+    const jcal_vec3_t out = {m[k], m[k + 3u], m[k + 6u]};
+    return out;
 }
 
-/// sum (3 x 3) <- sum + weight a b', a and b (3).
-static void add_outer3(float *sum, float weight, const float *a, const float *b)
+/// One product of columns: its vertical part, and the complex one of its horizontal parts, (x1 - i y1)(x2 + i y2).
+typedef struct {
+    float *up, *re, *im;
+} products_t;
+
+static inline void add_product(const products_t *to, size_t at, jcal_vec3_t a, jcal_vec3_t b)
 {
-    for (size_t i = 0u; i < 3u; ++i) {
-        const float s = weight * a[i];
-        sum[3u * i] += s * b[0];
-        sum[(3u * i) + 1u] += s * b[1];
-        sum[(3u * i) + 2u] += s * b[2];
-    }
+    to->up[at] += a.z * b.z;
+    to->re[at] += (a.x * b.x) + (a.y * b.y);
+    to->im[at] += (a.x * b.y) - (a.y * b.x);
 }
 
-/// re, im (n x n) <- themselves + weight (x1 - i y1)(x2 + i y2)', all four (n).
-static void add_horizontal(float *re, float *im, float weight, const float *const rows[4], size_t n)
+/// sum (3 x 3) <- sum + a b'.
+static void add_outer(float *sum, jcal_vec3_t a, jcal_vec3_t b)
 {
-    for (size_t i = 0u; i < n; ++i) {
-        const float x1 = weight * rows[0][i];
-        const float y1 = weight * rows[1][i];
-        for (size_t k = 0u; k < n; ++k) {
-            re[(n * i) + k] += (x1 * rows[2][k]) + (y1 * rows[3][k]);
-            im[(n * i) + k] += (x1 * rows[3][k]) - (y1 * rows[2][k]);
-        }
-    }
+    sum[0] += a.x * b.x;
+    sum[1] += a.x * b.y;
+    sum[2] += a.x * b.z;
+    sum[3] += a.y * b.x;
+    sum[4] += a.y * b.y;
+    sum[5] += a.y * b.z;
+    sum[6] += a.z * b.x;
+    sum[7] += a.z * b.y;
+    sum[8] += a.z * b.z;
 }
 
-/// Rows of [U B]: f (3 x 4).
-static void lever_rows(const jcal_tick_t *tick, float f[12])
+/// sum (6, packed) <- sum + weight M' M, M (3 x 3).
+static void add_square(float *sum, float weight, const float *m)
 {
-    const float velocity[3] = {tick->velocity.x, tick->velocity.y, tick->velocity.z};
-    for (size_t a = 0u; a < 3u; ++a) {
-        f[4u * a] = velocity[a];
-        f[(4u * a) + 1u] = tick->lever[3u * a];
-        f[(4u * a) + 2u] = tick->lever[(3u * a) + 1u];
-        f[(4u * a) + 3u] = tick->lever[(3u * a) + 2u];
-    }
+    const jcal_vec3_t a = column(m, 0u);
+    const jcal_vec3_t b = column(m, 1u);
+    const jcal_vec3_t c = column(m, 2u);
+    sum[0] += weight * jcal_vec3_dot(a, a);
+    sum[1] += weight * jcal_vec3_dot(b, a);
+    sum[2] += weight * jcal_vec3_dot(b, b);
+    sum[3] += weight * jcal_vec3_dot(c, a);
+    sum[4] += weight * jcal_vec3_dot(c, b);
+    sum[5] += weight * jcal_vec3_dot(c, c);
+}
+
+/// sum (10, packed) <- sum + weight [U B]' [U B].
+static void add_lever(float *sum, float weight, const jcal_tick_t *tick)
+{
+    const jcal_vec3_t u = tick->velocity;
+    const jcal_vec3_t a = column(tick->lever, 0u);
+    const jcal_vec3_t b = column(tick->lever, 1u);
+    const jcal_vec3_t c = column(tick->lever, 2u);
+    sum[0] += weight * jcal_vec3_dot(u, u);
+    sum[1] += weight * jcal_vec3_dot(a, u);
+    sum[2] += weight * jcal_vec3_dot(a, a);
+    sum[3] += weight * jcal_vec3_dot(b, u);
+    sum[4] += weight * jcal_vec3_dot(b, a);
+    sum[5] += weight * jcal_vec3_dot(b, b);
+    sum[6] += weight * jcal_vec3_dot(c, u);
+    sum[7] += weight * jcal_vec3_dot(c, a);
+    sum[8] += weight * jcal_vec3_dot(c, b);
+    sum[9] += weight * jcal_vec3_dot(c, c);
 }
 
 static void add_levers(jcal_functional_sums_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2, float weight)
 {
-    float f1[12];
-    float f2[12];
-    lever_rows(tick1, f1);
-    lever_rows(tick2, f2);
-    for (size_t a = 0u; a < 3u; ++a) {
-        jcal_sym_rank1(self->lever1, 4u, &f1[4u * a], weight);
-        jcal_sym_rank1(self->lever2, 4u, &f2[4u * a], weight);
-    }
+    add_lever(self->lever1, weight, tick1);
+    add_lever(self->lever2, weight, tick2);
+    const products_t to = {self->lever_up, self->block[0].lever_re, self->block[0].lever_im};
+    const jcal_vec3_t b0 = tick2->velocity;
+    const jcal_vec3_t b1 = column(tick2->lever, 0u);
+    const jcal_vec3_t b2 = column(tick2->lever, 1u);
+    const jcal_vec3_t b3 = column(tick2->lever, 2u);
     for (size_t i = 0u; i < 4u; ++i) {
-        add_scaled(&self->lever_up[4u * i], weight * f1[8u + i], &f2[8], 4u);
+        const jcal_vec3_t a = jcal_vec3_scale((i == 0u) ? tick1->velocity : column(tick1->lever, i - 1u), weight);
+        add_product(&to, 4u * i, a, b0);
+        add_product(&to, (4u * i) + 1u, a, b1);
+        add_product(&to, (4u * i) + 2u, a, b2);
+        add_product(&to, (4u * i) + 3u, a, b3);
     }
-    const float *const rows[4] = {f1, &f1[4], f2, &f2[4]};
-    add_horizontal(self->block[0].lever_re, self->block[0].lever_im, weight, rows, 4u);
 }
 
 static void add_turns(jcal_functional_sums_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2, float weight)
 {
-    add_outer3(self->turn_up, weight, &tick1->turn[6], &tick2->turn[6]);
-    const float *const rows[4] = {tick1->turn, &tick1->turn[3], tick2->turn, &tick2->turn[3]};
-    add_horizontal(self->block[0].turn_re, self->block[0].turn_im, weight, rows, 3u);
+    const products_t to = {self->turn_up, self->block[0].turn_re, self->block[0].turn_im};
+    const jcal_vec3_t b0 = column(tick2->turn, 0u);
+    const jcal_vec3_t b1 = column(tick2->turn, 1u);
+    const jcal_vec3_t b2 = column(tick2->turn, 2u);
+    for (size_t i = 0u; i < 3u; ++i) {
+        const jcal_vec3_t a = jcal_vec3_scale(column(tick1->turn, i), weight);
+        add_product(&to, 3u * i, a, b0);
+        add_product(&to, (3u * i) + 1u, a, b1);
+        add_product(&to, (3u * i) + 2u, a, b2);
+    }
+}
+
+/// sum (9 x 9) <- sum + weight a b', a and b (9).
+static void add_outer9(float *sum, float weight, const float *a, const float *b)
+{
+    const jcal_vec3_t b0 = {b[0], b[1], b[2]};
+    const jcal_vec3_t b1 = {b[3], b[4], b[5]};
+    const jcal_vec3_t b2 = {b[6], b[7], b[8]};
+    for (size_t i = 0u; i < 9u; ++i) {
+        const float s = weight * a[i];
+        float *const row = &sum[9u * i];
+        row[0] += s * b0.x;
+        row[1] += s * b0.y;
+        row[2] += s * b0.z;
+        row[3] += s * b1.x;
+        row[4] += s * b1.y;
+        row[5] += s * b1.z;
+        row[6] += s * b2.x;
+        row[7] += s * b2.y;
+        row[8] += s * b2.z;
+    }
 }
 
 static void add_rates(jcal_functional_sums_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2, float weight)
 {
-    for (size_t a = 0u; a < 3u; ++a) {
-        jcal_sym_rank1(self->rate1, 3u, &tick1->rate[3u * a], weight);
-        jcal_sym_rank1(self->rate2nd, 3u, &tick2->rate[3u * a], weight);
-    }
-    const float rate1[3] = {tick1->gyr.x, tick1->gyr.y, tick1->gyr.z};
-    const float rate2[3] = {tick2->gyr.x, tick2->gyr.y, tick2->gyr.z};
-    add_outer3(self->along, weight, rate1, rate2);
-    add_outer3(self->rate_up, weight, &tick1->rate[6], &tick2->rate[6]);
-    for (size_t i = 0u; i < 9u; ++i) {
-        add_scaled(&self->block[0].rate[9u * i], weight * tick1->rate[i], tick2->rate, 9u);
-    }
+    add_square(self->rate1, weight, tick1->rate);
+    add_square(self->rate2nd, weight, tick2->rate);
+    add_outer(self->along, jcal_vec3_scale(tick1->gyr, weight), tick2->gyr);
+    const jcal_vec3_t up1 = {weight * tick1->rate[6], weight * tick1->rate[7], weight * tick1->rate[8]};
+    const jcal_vec3_t up2 = {tick2->rate[6], tick2->rate[7], tick2->rate[8]};
+    add_outer(self->rate_up, up1, up2);
+    add_outer9(self->block[0].rate, weight, tick1->rate, tick2->rate);
 }
 
 void jcal_functional_sums_add(jcal_functional_sums_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2,
@@ -123,7 +170,7 @@ void jcal_functional_sums_close(jcal_functional_sums_t *self, jcal_functional_po
         jcal_functional_level_rates(self->old_rate, old->rate, heading);
         jcal_functional_free_rates(self->rate_free, old->rate, point->turn[1]);
     }
-    *old = self->block[0];
+    jcal_copy(old, &self->block[0], sizeof *old);
     jcal_clear(&self->block[0], sizeof self->block[0]);
     point->heading[1] = point->heading[0];
     for (size_t i = 0u; i < 9u; ++i) {

@@ -14,8 +14,8 @@
 
 #include <float.h>
 
-/// Time constant of the heading, s: 4 to 16 s do alike.
-#define MEMORY_S 8.0f
+/// Time constant of the heading, s: 4 to 16 s do alike where it rests; where it drifts it lags by so much, which must not look like a slip.
+#define MEMORY_S 4.0f
 
 /// Squared rate that is added before a residual of the rates is taken as a share of them, (rad/s)^2.
 #define WATCH_REST_RATE2 0.3f
@@ -24,9 +24,9 @@
 #define WATCH_CLIP 50.0f
 /// A sensor has moved when a mean is this many times the usual: half as much again as the largest that whole recordings without a slip
 /// held (docs/METHOD_PEOPLE.md, section 6).
-#define MOVED_TURN 13.0f
-#define MOVED_RATE 10.0f
-#define MOVED_LEVER 14.0f
+#define MOVED_TURN 12.0f
+#define MOVED_RATE 15.0f
+#define MOVED_LEVER 22.0f
 
 /// Tangents u = j x e and v = j x u, e the sensor's axis number `from`: they follow the axis j without a jump, as long as j is not near e.
 static jcal_tangent_t zero_at(jcal_vec3_t j, uint8_t from)

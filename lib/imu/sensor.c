@@ -121,8 +121,8 @@ static jcal_status_t go_on(jcal_sensor_t *self, const jcal_reading_t *reading, u
 
 jcal_status_t jcal_sensor_push(jcal_sensor_t *self, const jcal_reading_t *reading)
 {
-    if ((self == NULL) || (reading == NULL)) {
-        return JCAL_ERR_ARG;
+    if ((self == NULL) || (reading == NULL) || !(self->bias.p[0] > 0.0f)) {
+        return JCAL_ERR_ARG; /* a variance is zero only where all is: before init */
     }
     const uint64_t dt_us = reading->t_us - self->last_us; /* huge if time goes back */
     if (!is_within(reading->imu.gyr_rad_s, JCAL_SENSOR_GYR_MAX_RAD_S) ||

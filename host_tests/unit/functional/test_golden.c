@@ -3,8 +3,8 @@
 /// Every step of the functional joint against the float64 numpy reference, tools/maintain/make_golden.py.
 #include "functional/axes.h"
 #include "functional/bounds.h"
+#include "functional/describe.h"
 #include "functional/headings.h"
-#include "functional/judge.h"
 #include "functional/levers.h"
 #include "functional/model.h"
 #include "functional/rival.h"
@@ -288,11 +288,19 @@ static void settle_at(int p)
     }
 }
 
+static void describe(void)
+{
+    jcal_functional_cross_t x;
+    jcal_functional_cross(&joint.sums, &joint.point, &x);
+    jcal_functional_describe(&joint, &x);
+}
+
 static void share_bending_and_stiffness(void)
 {
     for (int p = 0; p < GOLDEN_POINTS; ++p) {
         settle_at(p);
-        jcal_functional_describe(&joint);
+        describe();
+        jcal_functional_stiffness(&joint);
         const double *const g = golden_described[p];
         TEST_ASSERT_DOUBLE_WITHIN(SOLVE_TOL, g[0], (double)joint.verdict.share);
         TEST_ASSERT_DOUBLE_WITHIN(SOLVE_TOL, g[2], (double)joint.verdict.stiffness);
@@ -301,7 +309,7 @@ static void share_bending_and_stiffness(void)
             (jcal_vec3_t){(float)golden_stiffest[p][0], (float)golden_stiffest[p][1], (float)golden_stiffest[p][2]};
         joint.point.j2 =
             (jcal_vec3_t){(float)golden_stiffest[p][3], (float)golden_stiffest[p][4], (float)golden_stiffest[p][5]};
-        jcal_functional_describe(&joint);
+        describe();
         TEST_ASSERT_DOUBLE_WITHIN(SOLVE_TOL, g[1], (double)joint.verdict.bend_rad);
     }
 }
@@ -310,7 +318,7 @@ static void bounds(void)
 {
     for (int p = 0; p < GOLDEN_POINTS; ++p) {
         settle_at(p);
-        jcal_functional_describe(&joint);
+        describe();
         for (unsigned part = 0; part < JCAL_FUNCTIONAL_BOUND_SLICES; ++part) {
             jcal_functional_bound(&joint, part);
         }

@@ -12,7 +12,7 @@
 
 #define MOTION_PI 3.14159265358979323846
 #define MOTION_G 9.81
-#define MOTION_STEP_S 0.0005
+#define MOTION_STEP_S 0.001
 
 /// How a sensor sits: frame (sensor to body), place in the body's frame (m), heading of its earth frame (rad).
 typedef struct {

@@ -294,6 +294,10 @@ static void nothing_is_an_argument_that_is_missing(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_sensor_init(NULL));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_sensor_push(NULL, &reading));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_sensor_push(&sensor, NULL));
+    jcal_sensor_t zeros;
+    memset(&zeros, 0, sizeof zeros);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_sensor_push(&zeros, &reading));
+    TEST_ASSERT_NULL(jcal_sensor_tick(&zeros));
     TEST_ASSERT_NULL(jcal_sensor_tick(NULL));
     TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_sensor_orientation(NULL).w);
     TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_sensor_orientation(&sensor).w);

@@ -72,7 +72,8 @@ HOME_MAX = 0.1  # longest last step of an axis, rad
 # Gates.
 AGREED_MIN = 3
 GRAVITY_OFF_MAX, MOTION_MIN_S, LEANING_MAX, LACK_MAX = 0.6, 3.0, 20.0 * DEG, 0.025
-BEND_MIN, CLEAR_BEND_MIN, STIFFNESS_MIN, SHARE_MIN = 15.0 * DEG, 55.0 * DEG, 0.05, 0.8
+BEND_MIN, CLEAR_BEND_MIN, CLEAR_BEND_LACK = 15.0 * DEG, 40.0 * DEG, 0.03
+STIFFNESS_MIN, SHARE_MIN = 0.05, 0.8
 EVIDENCE_MIN, LEVER_EVIDENCE_MIN, OPPOSITE_MIN = 7.0, 3.0, 4.0
 SPEED_NOISE2, SPEED_MIN2, OPPOSITE_LEAST2 = 6e-4, 0.03, 3e-4
 BOUND_FOR_FLEXION = 10.0 * DEG
@@ -514,7 +515,8 @@ def reason_of(joint: Joint) -> str:
     """The first thing that keeps the estimate from being ready, the worst first; "" if there is none. Without hysteresis."""
     sums, point, v = joint.sums, joint.point, joint.verdict
     left = point.lack / sums.motion_s
-    clear = v.bend * np.sqrt(v.share / max(1.0 - v.share, 1e-3))
+    clear = v.bend * np.sqrt(max(v.share, 0.0) / max(1.0 - v.share, 1e-7))
+    clear /= 1.0 + max(left - SPEED_NOISE2, 0.0) / point.speed2 / CLEAR_BEND_LACK
     flexion = v.flexion <= joint.max_flexion and v.bounds.max() <= BOUND_FOR_FLEXION
     gates = [("gravity-off", joint.gravity_off <= GRAVITY_OFF_MAX), ("no-motion", sums.motion_s >= MOTION_MIN_S),
              ("does-not-fit", 2.0 * point.size[TURN] <= LEANING_MAX**2),

@@ -1,13 +1,7 @@
-"""Float64 reference of one sensor's work: orientation and low-frequency features.
+"""Float64 reference of one sensor's work for a functional joint: orientation, and ticks of its features.
 
-Written from include/jointcal/tick.h and [VQF]. With R from the sensor to its level frame:
-
-    rate      Q = L3(R [w]x)      L3: three one-poles of 5 Hz in series, every sample
-    gyr       L3(w)
-    velocity  U = L H H u         u: integral of v = L3(R a - g) through a high-pass of 0.4 Hz
-    lever     B = L H H H Q       H: one-pole high-passes of 0.4 Hz, L: low-pass of 3 Hz, every tick
-
-`orientation` is VQF's basic form without its estimation of biases: take the bias off before.
+`orientation` is the basic form of [VQF] without its estimation of biases: take the bias off
+before. Features are those of jointcal_tools.sensor_features, begun anew after each gap.
 """
 
 from __future__ import annotations
@@ -17,10 +11,9 @@ from typing import NamedTuple
 import numpy as np
 
 from . import quaternions as quat
+from . import sensor_features
 
 GRAVITY_M_S2 = 9.81
-SAMPLE_LOW_HZ, TICK_HIGH_HZ, TICK_LOW_HZ = 5.0, 0.4, 3.0
-TICK_S = 0.05
 GAP_S = 0.105  # a longer distance of samples begins anew
 TAU_ACC_S = 3.0  # of VQF's low-pass of the specific force; so long the running mean is taken
 LEVEL_TAU_S = 20.0
@@ -38,18 +31,6 @@ class Tick(NamedTuple):
     velocity: np.ndarray  # (3,) U, m/s
     gyr: np.ndarray  # (3,) rad/s
     acc_level: float  # mean vertical specific force, m/s^2
-
-
-def share(hz: float, dt_s: float) -> float:
-    """Of the new value in a one-pole low-pass."""
-    return 1.0 - float(np.exp(-2.0 * np.pi * hz * dt_s))
-
-
-def skews(w: np.ndarray) -> np.ndarray:
-    """(N, 3, 3): [w]x r = w x r."""
-    out = np.zeros((len(w), 3, 3))
-    out[:, 2, 1], out[:, 0, 2], out[:, 1, 0] = w.T
-    return out - out.swapaxes(1, 2)
 
 
 def epochs(t_s: np.ndarray) -> list[slice]:
@@ -105,88 +86,31 @@ def orientation(t_s: np.ndarray, gyr: np.ndarray, acc: np.ndarray) -> np.ndarray
     return out
 
 
-# Features.
+# Ticks.
 
 
-class Chain:
-    """Three one-poles in series."""
-
-    def __init__(self, start: np.ndarray) -> None:
-        self.y = [start, start, start]
-
-    def put(self, x: np.ndarray, a: float) -> np.ndarray:
-        for i in range(3):
-            x = self.y[i] = self.y[i] + a * (x - self.y[i])
-        return x
-
-
-class HighPass:
-    """h <- (1 - b)(h + x - x before), from h = 0."""
-
-    def __init__(self, before: np.ndarray) -> None:
-        self.h, self.before = np.zeros_like(before), before
-
-    def put(self, x: np.ndarray, b: float) -> np.ndarray:
-        self.h = (1.0 - b) * (self.h + x - self.before)
-        self.before = x
-        return self.h
-
-
-class Stage:
-    """Filters of one epoch."""
-
-    def __init__(self, q: np.ndarray, v: np.ndarray, w: np.ndarray) -> None:
-        self.rate, self.force, self.gyr = Chain(q), Chain(np.zeros(3)), Chain(w)
-        self.first = 0.5 * v  # half: the integral is a trapezoidal rule, and its first value counts half
-        self.v, self.way = np.zeros(3), np.zeros(3)
-        self.lever = [HighPass(q)] + [HighPass(np.zeros((3, 3))) for _ in range(2)]
-        self.integral, self.velocity = np.zeros(3), [HighPass(np.zeros(3)) for _ in range(2)]
-        self.b, self.u = np.zeros((3, 3)), np.zeros(3)
-        self.level, self.since_s = GRAVITY_M_S2, 0.0
-
-    def take_way(self, v: np.ndarray, dt_s: float) -> None:
-        now = self.force.put(v, share(SAMPLE_LOW_HZ, dt_s))
-        self.way = self.way + 0.5 * dt_s * (self.v + now)
-        self.v = now
-
-    def sample(self, q: np.ndarray, v: np.ndarray, w: np.ndarray, dt_s: float) -> None:
-        a = share(SAMPLE_LOW_HZ, dt_s)
-        if self.first is not None:
-            self.take_way(self.first, dt_s)
-            self.first = None
-        self.rate.put(q, a)
-        self.take_way(v, dt_s)
-        self.gyr.put(w, a)
-
-    def tick(self, dt_s: float) -> None:
-        b, c = share(TICK_HIGH_HZ, dt_s), share(TICK_LOW_HZ, dt_s)
-        self.level += dt_s / (min(self.since_s, LEVEL_TAU_S) + dt_s) * (GRAVITY_M_S2 + self.way[2] / dt_s - self.level)
-        self.since_s += dt_s
-        u = self.integral = (1.0 - b) * (self.integral + self.way)
-        self.way = np.zeros(3)
-        for high in self.velocity:
-            u = high.put(u, b)
-        self.u = self.u + c * (u - self.u)
-        lever = self.rate.y[2]
-        for high in self.lever:
-            lever = high.put(lever, b)
-        self.b = self.b + c * (lever - self.b)
+def levels(since_s: np.ndarray, dt_s: np.ndarray, vertical: np.ndarray) -> np.ndarray:
+    """Mean of the vertical specific force over the epoch, then over LEVEL_TAU_S."""
+    level, out = GRAVITY_M_S2, []
+    for since, dt, force in zip(since_s, dt_s, vertical, strict=True):
+        level += dt / (min(since, LEVEL_TAU_S) + dt) * (force - level)
+        out.append(level)
+    return np.array(out)
 
 
 def features(t_s: np.ndarray, q: np.ndarray, gyr: np.ndarray, acc: np.ndarray) -> list[Tick]:
     """Ticks of one sensor with orientations q (N, 4)."""
-    r = quat.matrices(q)
-    spin, force = r @ skews(gyr), np.einsum("nij,nj->ni", r, acc) - [0.0, 0.0, GRAVITY_M_S2]
-    ticks = []
+    turn, ticks = quat.matrices(q), []
     for number, part in enumerate(epochs(t_s), 1):
-        stage = Stage(spin[part.start], force[part.start], gyr[part.start])
-        last_s = t_s[part.start]
-        for k in range(part.start + 1, part.stop):
-            dt = t_s[k] - t_s[k - 1]
-            stage.sample(spin[k], force[k], gyr[k], dt)
-            since = t_s[k] - last_s
-            if since + 0.5 * dt >= TICK_S - 1e-9:
-                stage.tick(since)
-                last_s = t_s[k]
-                ticks.append(Tick(t_s[k], since, number, r[k], stage.rate.y[2], stage.b, stage.u, stage.gyr.y[2], stage.level))
+        t, r = t_s[part] - t_s[part.start], turn[part]
+        if len(t) < 20:  # no tick may be due yet
+            continue
+        found = sensor_features.features(np.rint(1e6 * t), r, gyr[part], acc[part])
+        starts = np.r_[0, found.at]
+        dt = np.diff(t[starts])
+        vertical = [float(np.mean(np.einsum("nj,nj->n", r[a + 1 : b + 1, 2], acc[part][a + 1 : b + 1])))
+                    for a, b in zip(starts[:-1], starts[1:], strict=True)]
+        level = levels(t[starts[:-1]], dt, np.array(vertical))
+        ticks += [Tick(t_s[part][at], dt[k], number, r[at], found.rate[k], found.lever[k], found.velocity[k], found.gyr[k], level[k])
+                  for k, at in enumerate(found.at)]
     return ticks

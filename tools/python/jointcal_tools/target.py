@@ -166,7 +166,7 @@ def build_plugin() -> Path:
 
 
 def run(platform: Platform, image: Path, samples: Path, plugin: Path | None = None, out: Path | None = None) -> dict:
-    """What the replay program printed: samples, hash, state, stack."""
+    """What the replay program printed: samples, hash, state, stack, samples before the first that was ready, slices (if shown)."""
     command = [str(image)]
     if platform.cpu:
         command = ["qemu-system-arm", "-M", platform.machine, "-display", "none", "-monitor", "none", "-serial", "none",
@@ -176,7 +176,8 @@ def run(platform: Platform, image: Path, samples: Path, plugin: Path | None = No
             command += ["-plugin", f"{plugin},out={out}"]
     done = subprocess.run(command, cwd=samples.parent, stdin=subprocess.DEVNULL, capture_output=True, text=True,
                           timeout=QEMU_SECONDS, check=False)
-    match = re.search(r"samples (\d+) hash (\w+) state (\d+) stack (\d+)", done.stdout)
+    match = re.search(r"samples (\d+) hash (\w+) state (\d+) stack (\d+) before_ready (\d+)", done.stdout)
     if done.returncode != 0 or not match:
         raise RuntimeError(f"{image.name} on {platform.name}: exit {done.returncode}: {done.stdout}{done.stderr}")
-    return {"samples": int(match[1]), "hash": match[2], "state": int(match[3]), "stack": int(match[4])}
+    return {"samples": int(match[1]), "hash": match[2], "state": int(match[3]), "stack": int(match[4]),
+            "before_ready": int(match[5]), "slices": [int(slice_) for slice_ in re.findall(r"slice (\d+)", done.stdout)]}

@@ -6,6 +6,7 @@
 
 #include "jointcal/private/functional/pair.h"
 #include "jointcal/private/hinge/stream.h"
+#include "jointcal/private/inbox.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -13,6 +14,7 @@ extern "C" {
 
 /// Both models on the same readings. Caller-owned, plain, copyable at any time between calls; all members are private.
 typedef struct {
+    jcal_inbox_t inbox;  ///< Pairs that were pushed and wait for step.
     jcal_hinge_t rigid;
     jcal_functional_pair_t functional;
     int8_t kept_sign;  ///< Of axis 1, from the first `ready` on; lib/joint/sign.h.

@@ -18,6 +18,7 @@ typedef struct {
     jcal_gate_t gate;
     jcal_sensor_t sensor1, sensor2;
     jcal_functional_t joint;
+    uint64_t last_us;  ///< Time of the last reading.
 } jcal_functional_pair_t;
 
 #ifdef __cplusplus
