@@ -75,19 +75,12 @@ void jcal_functional_quadric(const jcal_functional_sums_t *sums, const jcal_func
     }
 }
 
-/// S v, S (3 x 3, packed).
-static jcal_vec3_t times_packed(const float *s, jcal_vec3_t v)
-{
-    return jcal_vec3((s[0] * v.x) + (s[1] * v.y) + (s[3] * v.z), (s[1] * v.x) + (s[2] * v.y) + (s[4] * v.z),
-                     (s[3] * v.x) + (s[4] * v.y) + (s[5] * v.z));
-}
-
 /// Both parts of H [a; b].
 static void slopes(const jcal_functional_quadric_t *h, jcal_vec3_t a, jcal_vec3_t b, jcal_vec3_t *slope1,
                    jcal_vec3_t *slope2)
 {
-    *slope1 = jcal_vec3_add(times_packed(h->h11, a), jcal_functional_times(h->h12, b));
-    *slope2 = jcal_vec3_add(jcal_functional_times_left(h->h12, a), times_packed(h->h22, b));
+    *slope1 = jcal_vec3_add(jcal_functional_times_packed(h->h11, a), jcal_functional_times(h->h12, b));
+    *slope2 = jcal_vec3_add(jcal_functional_times_left(h->h12, a), jcal_functional_times_packed(h->h22, b));
 }
 
 void jcal_functional_tangent_hessian(const jcal_functional_quadric_t *h, jcal_vec3_t j1, jcal_vec3_t j2, bool bend,
@@ -104,20 +97,20 @@ void jcal_functional_tangent_hessian(const jcal_functional_quadric_t *h, jcal_ve
     slope[3] = jcal_vec3_dot(t2.v, slope2);
     const float off1 = bend ? jcal_vec3_dot(j1, slope1) : 0.0f;
     const float off2 = bend ? jcal_vec3_dot(j2, slope2) : 0.0f;
-    const jcal_vec3_t h1u = times_packed(h->h11, t1.u);
-    const jcal_vec3_t h2u = times_packed(h->h22, t2.u);
+    const jcal_vec3_t h1u = jcal_functional_times_packed(h->h11, t1.u);
+    const jcal_vec3_t h2u = jcal_functional_times_packed(h->h22, t2.u);
     const jcal_vec3_t x1u = jcal_functional_times_left(h->h12, t1.u);
     const jcal_vec3_t x1v = jcal_functional_times_left(h->h12, t1.v);
     hessian[0] = jcal_vec3_dot(t1.u, h1u) - off1;
     hessian[1] = jcal_vec3_dot(t1.v, h1u);
-    hessian[2] = jcal_vec3_dot(t1.v, times_packed(h->h11, t1.v)) - off1;
+    hessian[2] = jcal_vec3_dot(t1.v, jcal_functional_times_packed(h->h11, t1.v)) - off1;
     hessian[3] = jcal_vec3_dot(t2.u, x1u);
     hessian[4] = jcal_vec3_dot(t2.u, x1v);
     hessian[5] = jcal_vec3_dot(t2.u, h2u) - off2;
     hessian[6] = jcal_vec3_dot(t2.v, x1u);
     hessian[7] = jcal_vec3_dot(t2.v, x1v);
     hessian[8] = jcal_vec3_dot(t2.v, h2u);
-    hessian[9] = jcal_vec3_dot(t2.v, times_packed(h->h22, t2.v)) - off2;
+    hessian[9] = jcal_vec3_dot(t2.v, jcal_functional_times_packed(h->h22, t2.v)) - off2;
 }
 
 void jcal_functional_step_axes(const jcal_functional_quadric_t *h, jcal_vec3_t *j1, jcal_vec3_t *j2)

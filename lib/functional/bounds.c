@@ -10,6 +10,7 @@
 #include "jointcal/functional.h"
 #include "jointcal/vec3.h"
 #include "math/chol_small.h"
+#include "math/clear.h"
 #include "math/plane.h"
 #include "math/scalar.h"
 #include "math/sphere.h"
@@ -31,16 +32,22 @@
 /// Longest step of an axis, rad: a quadratic model is good for so much.
 #define HOME_MAX_RAD 0.1f
 
-void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
-                                    float *out)
+/// Weight of the rates' products.
+static float rate_scale(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point)
 {
-    const float scale = point->weight[JCAL_FAMILY_RATE] / jcal_max(sums->rate2, FLT_MIN);
+    return point->weight[JCAL_FAMILY_RATE] / jcal_max(sums->rate2, FLT_MIN);
+}
+
+/// As jcal_functional_bound_coupling; `rates` (27) <- those of block b across j1, weighted.
+static void couple(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b, float *rates,
+                   float *out)
+{
+    const float scale = rate_scale(sums, point);
     const float turn_scale = point->weight[JCAL_FAMILY_TURN] / jcal_max(sums->motion_s, FLT_MIN);
     const jcal_tangent_t t1 = jcal_sphere_tangent(point->j1);
     const jcal_tangent_t t2 = jcal_sphere_tangent(point->j2);
     const jcal_vec3_t left[4] = {t1.u, t1.v, point->j1, point->j1};
     const jcal_vec3_t right[4] = {point->j2, point->j2, t2.u, t2.v};
-    float rates[27];
     for (size_t i = 0u; i < 4u; ++i) {
         float m[9];
         float n[9];
@@ -56,48 +63,55 @@ void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jc
     }
 }
 
-/// What block b pulls its turn by: its grip, and turn and lever residuals seen from its heading.
+void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                                    float *out)
+{
+    float rates[27];
+    couple(sums, point, b, rates, out);
+}
+
+/// Both derivatives of the cost by a block's turn, as jcal_functional_bound_slope and jcal_functional_bound_nuisance.
 typedef struct {
+    float slope[3];
+    float hessian[JCAL_SYM_SIZE(3u)];
+} by_turn_t;
+
+/// With the rates of block b across j1, weighted.
+static void turn_of(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
+                    const float *rates, by_turn_t *out)
+{
     jcal_functional_grip_t grip;
-    jcal_plane_t turn, lever;
-} pull_t;
-
-static void pull_of(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b, pull_t *out)
-{
-    jcal_functional_grip(sums, point, b, &out->grip);
-    out->turn = jcal_plane_times(point->heading[b], jcal_functional_turn_pull(sums, point, b));
-    out->lever = jcal_plane_times(point->heading[b], jcal_functional_lever_pull(sums, point, b));
-}
-
-static void nuisance_of(const pull_t *pull, float *out)
-{
-    jcal_functional_turn_hessian(pull->grip.n, out);
-    /* Heading and turn go together about z: what ties them does not count there. */
-    out[5] += jcal_max(pull->turn.re, 0.0f) + jcal_max(pull->lever.re, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
-}
-
-static void slope_of(const pull_t *pull, const float *turn, float *out)
-{
     float n[9];
-    jcal_functional_turn_slope(pull->grip.n, out);
-    jcal_functional_times_transposed(turn, pull->grip.m, n);
-    out[2] = n[1] - n[3] + (pull->turn.im + pull->lever.im); /* what ties heading and turn does not count */
+    jcal_functional_grip_left(point, b, rates, &grip);
+    jcal_functional_turn_hessian(grip.n, out->hessian);
+    jcal_functional_turn_slope(grip.n, out->slope);
+    const jcal_plane_t heading = point->heading[b];
+    const jcal_plane_t turn = jcal_plane_times(heading, jcal_functional_turn_pull(sums, point, b));
+    const jcal_plane_t lever = jcal_plane_times(heading, jcal_functional_lever_pull(sums, point, b));
+    /* Heading and turn go together about z: what ties them does not count there. */
+    out->hessian[5] += jcal_max(turn.re, 0.0f) + jcal_max(lever.re, 0.0f) - (2.0f * JCAL_FUNCTIONAL_TILT_WEIGHT);
+    jcal_functional_times_transposed(point->turn[b], grip.m, n);
+    out->slope[2] = (n[1] - n[3]) + turn.im + lever.im;
 }
 
 void jcal_functional_bound_nuisance(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                                     float *out)
 {
-    pull_t pull;
-    pull_of(sums, point, b, &pull);
-    nuisance_of(&pull, out);
+    float rates[27];
+    by_turn_t by;
+    jcal_functional_left_rates(sums->block[b].rate, point->j1, rate_scale(sums, point), rates);
+    turn_of(sums, point, b, rates, &by);
+    jcal_copy(out, by.hessian, sizeof by.hessian);
 }
 
 void jcal_functional_bound_slope(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                                  float *out)
 {
-    pull_t pull;
-    pull_of(sums, point, b, &pull);
-    slope_of(&pull, point->turn[b], out);
+    float rates[27];
+    by_turn_t by;
+    jcal_functional_left_rates(sums->block[b].rate, point->j1, rate_scale(sums, point), rates);
+    turn_of(sums, point, b, rates, &by);
+    jcal_copy(out, by.slope, sizeof by.slope);
 }
 
 /// Share of block b in all motion.
@@ -116,25 +130,22 @@ static void take_out(jcal_functional_t *self, size_t b)
         return;
     }
     float q[12];
-    float nuisance[JCAL_SYM_SIZE(3u)];
-    jcal_functional_bound_coupling(sums, point, b, q);
-    pull_t pull;
-    pull_of(sums, point, b, &pull);
-    nuisance_of(&pull, nuisance);
-    if (!jcal_chol3_factor(nuisance)) {
+    float rates[27];
+    by_turn_t by;
+    couple(sums, point, b, rates, q);
+    turn_of(sums, point, b, rates, &by);
+    if (!jcal_chol3_factor(by.hessian)) {
         jcal_sym_zero(hessian, 4u); /* the block is not at a minimum: nothing is known */
         return;
     }
-    float off[3];
-    slope_of(&pull, point->turn[b], off);
     const float scale = self->verdict.block_share[b] / block_share(sums, b); /* ticks may have come in between */
     for (size_t i = 0u; i < 4u; ++i) {
         float solved[3] = {q[3u * i], q[(3u * i) + 1u], q[(3u * i) + 2u]};
-        jcal_chol3_solve(nuisance, solved);
+        jcal_chol3_solve(by.hessian, solved);
         for (size_t k = 0u; k < 3u; ++k) {
             solved[k] *= scale;
         }
-        self->verdict.slope[i] -= (solved[0] * off[0]) + (solved[1] * off[1]) + (solved[2] * off[2]);
+        self->verdict.slope[i] -= (solved[0] * by.slope[0]) + (solved[1] * by.slope[1]) + (solved[2] * by.slope[2]);
         for (size_t k = 0u; k <= i; ++k) {
             const float *const qk = &q[3u * k];
             hessian[jcal_sym_at(i, k)] -= (solved[0] * qk[0]) + (solved[1] * qk[1]) + (solved[2] * qk[2]);
@@ -188,8 +199,10 @@ static void finish(jcal_functional_t *self)
         const float lasting = LASTING_RIGID + ((LASTING_PERSON - LASTING_RIGID) * person);
         const float growth = sqrtf(lasting + (READING_S / jcal_max(self->sums.motion_s, FLT_MIN)));
         const float floor_rad = FLOOR_RIGID_RAD + ((FLOOR_PERSON_RAD - FLOOR_RIGID_RAD) * person);
-        verdict->bound1_rad = jcal_min(floor_rad + (growth * widest(p[0][0], p[0][1], p[1][1])), JCAL_BOUND_UNKNOWN_RAD);
-        verdict->bound2_rad = jcal_min(floor_rad + (growth * widest(p[2][2], p[2][3], p[3][3])), JCAL_BOUND_UNKNOWN_RAD);
+        verdict->bound1_rad =
+            jcal_min(floor_rad + (growth * widest(p[0][0], p[0][1], p[1][1])), JCAL_BOUND_UNKNOWN_RAD);
+        verdict->bound2_rad =
+            jcal_min(floor_rad + (growth * widest(p[2][2], p[2][3], p[3][3])), JCAL_BOUND_UNKNOWN_RAD);
         step_home(self, factor);
     }
 }

@@ -11,8 +11,8 @@
 /// Slices: one begins, one for each block, one ends.
 #define JCAL_FUNCTIONAL_BOUND_SLICES (2u + JCAL_FUNCTIONAL_BLOCKS)
 
-/// Slice `part`; the first one also describes the joint (describe.h), the last one sets bound1_rad and bound2_rad of the verdict. Cost: at
-/// most 650 multiply-adds.
+/// Slice `part`; the first one also describes the joint (describe.h), the last one sets bound1_rad and bound2_rad of the verdict and moves
+/// the axes to the minimum. Cost: at most 850 multiply-adds.
 void jcal_functional_bound(jcal_functional_t *self, unsigned part);
 
 /// out (4 x 3): derivative of block b's turn slope by the tangents of both axes; the third column is that of its heading, which all
@@ -20,7 +20,7 @@ void jcal_functional_bound(jcal_functional_t *self, unsigned part);
 void jcal_functional_bound_coupling(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                                     float *out);
 
-/// out (3 x 3, packed): second derivative of the cost by block b's turn, with the heading in its place about z.
+/// out (3 x 3, packed): second derivative of the cost by block b's turn, with the heading in its place about z. Cost: 350 multiply-adds.
 void jcal_functional_bound_nuisance(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                                     float *out);
 

@@ -46,8 +46,8 @@ void jcal_functional_describe(jcal_functional_t *self, const jcal_functional_cro
     const jcal_vec3_t j1 = self->point.j1;
     const jcal_vec3_t j2 = self->point.j2;
     const float across = 2.0f * jcal_max(sums->rate2, FLT_MIN) * jcal_functional_rate_size(sums, x->rate, j1, j2);
-    const float along = along_of(sums->rate1, j1) + along_of(sums->rate2nd, j2) -
-                        (2.0f * jcal_functional_between(sums->along, j1, j2));
+    const float along =
+        along_of(sums->rate1, j1) + along_of(sums->rate2nd, j2) - (2.0f * jcal_functional_between(sums->along, j1, j2));
     self->verdict.share = along / jcal_max(along + jcal_max(across, 0.0f), FLT_MIN);
     self->verdict.bend_rad = bend_of(x->turn, jcal_functional_between(x->turn, j1, j2), sums->motion_s);
 }
@@ -58,7 +58,7 @@ typedef struct {
 } pair_t;
 
 /// Turns both columns so that pq is zero (Golub and Van Loan, Matrix Computations, 8.5).
-static inline void annihilate(const pair_t *at)
+static void annihilate(const pair_t *at)
 {
     const float pq = *at->pq;
     const float pp = *at->pp;

@@ -27,9 +27,8 @@ static void grip_turn(const jcal_functional_point_t *point, size_t b, const floa
 {
     const float re = JCAL_FUNCTIONAL_TILT_WEIGHT * point->heading[b].re;
     const float im = JCAL_FUNCTIONAL_TILT_WEIGHT * point->heading[b].im;
-    const float pulled[9] = {m[0] + re, m[1] - im, m[2], m[3] + im,
-                             m[4] + re, m[5],      m[6], m[7],
-                             m[8] + JCAL_FUNCTIONAL_TILT_WEIGHT};
+    const float pulled[9] = {
+        m[0] + re, m[1] - im, m[2], m[3] + im, m[4] + re, m[5], m[6], m[7], m[8] + JCAL_FUNCTIONAL_TILT_WEIGHT};
     jcal_functional_times_transposed(point->turn[b], pulled, n);
 }
 
@@ -37,6 +36,13 @@ void jcal_functional_grip(const jcal_functional_sums_t *sums, const jcal_functio
                           jcal_functional_grip_t *out)
 {
     grip_rates(sums, point, b, out->m);
+    grip_turn(point, b, out->m, out->n);
+}
+
+void jcal_functional_grip_left(const jcal_functional_point_t *point, size_t b, const float *left,
+                               jcal_functional_grip_t *out)
+{
+    jcal_functional_right_rates(left, point->j2, out->m);
     grip_turn(point, b, out->m, out->n);
 }
 

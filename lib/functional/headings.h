@@ -25,6 +25,10 @@ typedef struct {
 void jcal_functional_grip(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, size_t b,
                           jcal_functional_grip_t *out);
 
+/// The same from the rates across j1 (jcal_functional_left_rates). Cost: 55 multiply-adds.
+void jcal_functional_grip_left(const jcal_functional_point_t *point, size_t b, const float *left,
+                               jcal_functional_grip_t *out);
+
 /// tr(N) I - sym N (3 x 3, packed): second derivative of -tr(D' M) for turns about the axes of L2.
 void jcal_functional_turn_hessian(const float *n, float *out);
 

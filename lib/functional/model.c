@@ -118,6 +118,33 @@ void jcal_functional_about_z(jcal_plane_t heading, float *out)
     }
 }
 
+float jcal_functional_between(const float *m, jcal_vec3_t a, jcal_vec3_t b)
+{
+    return (a.x * ((m[0] * b.x) + (m[1] * b.y) + (m[2] * b.z))) + (a.y * ((m[3] * b.x) + (m[4] * b.y) + (m[5] * b.z))) +
+           (a.z * ((m[6] * b.x) + (m[7] * b.y) + (m[8] * b.z)));
+}
+
+jcal_vec3_t jcal_functional_times(const float *m, jcal_vec3_t b)
+{
+    const jcal_vec3_t out = {(m[0] * b.x) + (m[1] * b.y) + (m[2] * b.z), (m[3] * b.x) + (m[4] * b.y) + (m[5] * b.z),
+                             (m[6] * b.x) + (m[7] * b.y) + (m[8] * b.z)};
+    return out;
+}
+
+jcal_vec3_t jcal_functional_times_left(const float *m, jcal_vec3_t a)
+{
+    const jcal_vec3_t out = {(m[0] * a.x) + (m[3] * a.y) + (m[6] * a.z), (m[1] * a.x) + (m[4] * a.y) + (m[7] * a.z),
+                             (m[2] * a.x) + (m[5] * a.y) + (m[8] * a.z)};
+    return out;
+}
+
+jcal_vec3_t jcal_functional_times_packed(const float *s, jcal_vec3_t v)
+{
+    const jcal_vec3_t out = {(s[0] * v.x) + (s[1] * v.y) + (s[3] * v.z), (s[1] * v.x) + (s[2] * v.y) + (s[4] * v.z),
+                             (s[3] * v.x) + (s[4] * v.y) + (s[5] * v.z)};
+    return out;
+}
+
 void jcal_functional_times_transposed(const float *a, const float *b, float *out)
 {
     const jcal_vec3_t x = {b[0], b[1], b[2]};

@@ -40,27 +40,14 @@ void jcal_functional_cross_level(const jcal_functional_sums_t *sums, const jcal_
 void jcal_functional_about_z(jcal_plane_t heading, float *out);
 
 /// a' M b, M (3 x 3).
-static inline float jcal_functional_between(const float *m, jcal_vec3_t a, jcal_vec3_t b)
-{
-    return (a.x * ((m[0] * b.x) + (m[1] * b.y) + (m[2] * b.z))) + (a.y * ((m[3] * b.x) + (m[4] * b.y) + (m[5] * b.z))) +
-           (a.z * ((m[6] * b.x) + (m[7] * b.y) + (m[8] * b.z)));
-}
+float jcal_functional_between(const float *m, jcal_vec3_t a, jcal_vec3_t b);
 
-/// M b, M (3 x 3).
-static inline jcal_vec3_t jcal_functional_times(const float *m, jcal_vec3_t b)
-{
-    const jcal_vec3_t out = {(m[0] * b.x) + (m[1] * b.y) + (m[2] * b.z), (m[3] * b.x) + (m[4] * b.y) + (m[5] * b.z),
-                             (m[6] * b.x) + (m[7] * b.y) + (m[8] * b.z)};
-    return out;
-}
+/// M b, and M' a, M (3 x 3).
+jcal_vec3_t jcal_functional_times(const float *m, jcal_vec3_t b);
+jcal_vec3_t jcal_functional_times_left(const float *m, jcal_vec3_t a);
 
-/// M' a, M (3 x 3).
-static inline jcal_vec3_t jcal_functional_times_left(const float *m, jcal_vec3_t a)
-{
-    const jcal_vec3_t out = {(m[0] * a.x) + (m[3] * a.y) + (m[6] * a.z), (m[1] * a.x) + (m[4] * a.y) + (m[7] * a.z),
-                             (m[2] * a.x) + (m[5] * a.y) + (m[8] * a.z)};
-    return out;
-}
+/// S v, S (3 x 3, packed).
+jcal_vec3_t jcal_functional_times_packed(const float *s, jcal_vec3_t v);
 
 /// out <- a' b, all (3 x 3).
 void jcal_functional_times_transposed(const float *a, const float *b, float *out);

@@ -121,11 +121,8 @@ jcal_status_t jcal_functional_reset(jcal_functional_t *self)
 /// Sum of the squares of a matrix (3 x 3).
 static float squares(const float *m)
 {
-    float sum = 0.0f;
-    for (size_t i = 0u; i < 9u; i += 3u) {
-        sum += (m[i] * m[i]) + (m[i + 1u] * m[i + 1u]) + (m[i + 2u] * m[i + 2u]);
-    }
-    return sum;
+    return (m[0] * m[0]) + (m[1] * m[1]) + (m[2] * m[2]) + (m[3] * m[3]) + (m[4] * m[4]) + (m[5] * m[5]) +
+           (m[6] * m[6]) + (m[7] * m[7]) + (m[8] * m[8]);
 }
 
 /// True if a tick is one that a sensor can make: its numbers are finite, and no product of them overflows.
@@ -319,10 +316,14 @@ jcal_status_t jcal_functional_step(jcal_functional_t *self)
     if (self == NULL) {
         return JCAL_ERR_ARG;
     }
+    if (!(self->credit >= 1.0f)) {
+        return JCAL_IDLE;
+    }
     if (tend(self)) {
+        self->credit -= 1.0f;
         return JCAL_OK;
     }
-    if (!(self->credit >= 1.0f) || !(self->motion_s >= MOTION_FIRST_S)) {
+    if (!(self->motion_s >= MOTION_FIRST_S)) {
         return JCAL_IDLE;
     }
     if (self->slice >= (uint8_t)IDLE) {
@@ -331,7 +332,9 @@ jcal_status_t jcal_functional_step(jcal_functional_t *self)
             return JCAL_IDLE;
         }
         self->since_s = 0.0f;
-        self->slice = (uint8_t)(self->search.has_estimate ? 0u : ROUNDS_END);
+        const unsigned first =
+            is_ready ? JCAL_FUNCTIONAL_ROUND_SLICES : 0u; /* one round follows what changes in a second */
+        self->slice = (uint8_t)(self->search.has_estimate ? first : ROUNDS_END);
     }
     self->credit -= 1.0f;
     work(self);

@@ -7,6 +7,7 @@
 #include "joint/sign.h"
 #include "jointcal/functional.h"
 #include "jointcal/quat.h"
+#include "jointcal/vec3.h"
 #include "math/angle.h"
 #include "math/plane.h"
 #include "math/scalar.h"
@@ -71,51 +72,50 @@ void jcal_functional_track_begin(jcal_functional_t *self)
     jcal_functional_track_trust(self);
 }
 
-/// A direction in space, horizontal part: x + i y of m v, m (3 x 3).
-static jcal_plane_t horizontal(const float *m, jcal_vec3_t v)
+/// What both sensors see of the axis and of the joint's centre, each in its level frame.
+typedef struct {
+    jcal_vec3_t axis1, axis2;
+    jcal_vec3_t velocity1, velocity2;
+} seen_t;
+
+/// Velocity of the joint's centre: [U B][1; -r].
+static jcal_vec3_t centre_velocity(const jcal_tick_t *tick, jcal_vec3_t r)
 {
-    const jcal_plane_t out = {(m[0] * v.x) + (m[1] * v.y) + (m[2] * v.z), (m[3] * v.x) + (m[4] * v.y) + (m[5] * v.z)};
+    return jcal_vec3_sub(tick->velocity, jcal_functional_times(tick->lever, r));
+}
+
+static seen_t seen_by(const jcal_functional_point_t *point, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
+{
+    const seen_t out = {jcal_functional_times(tick1->turn, point->j1), jcal_functional_times(tick2->turn, point->j2),
+                        centre_velocity(tick1, point->r1), centre_velocity(tick2, point->r2)};
     return out;
 }
 
-/// Horizontal velocity of the joint's centre: x + i y of [U B][1; -r].
-static jcal_plane_t centre_velocity(const jcal_tick_t *tick, jcal_vec3_t r)
+/// Horizontal part: x + i y.
+static inline jcal_plane_t horizontal(jcal_vec3_t v)
 {
-    const jcal_plane_t owed = horizontal(tick->lever, r);
-    const jcal_plane_t out = {tick->velocity.x - owed.re, tick->velocity.y - owed.im};
+    const jcal_plane_t out = {v.x, v.y};
     return out;
 }
 
-/// |a - heading b|^2 of the horizontal parts, and of the vertical ones.
-static float apart2(jcal_plane_t heading, jcal_plane_t a, float a_up, jcal_plane_t b, float b_up)
+/// |a - Rz(heading) b|^2.
+static float apart2(jcal_plane_t heading, jcal_vec3_t a, jcal_vec3_t b)
 {
-    const jcal_plane_t off = jcal_plane_add(a, -1.0f, jcal_plane_times(heading, b));
-    const float up = a_up - b_up;
+    const jcal_plane_t off = jcal_plane_add(horizontal(a), -1.0f, jcal_plane_times(heading, horizontal(b)));
+    const float up = a.z - b.z;
     return jcal_plane_norm2(off) + (up * up);
 }
 
-/// The vertical part of m v, m (3 x 3).
-static float vertical(const float *m, jcal_vec3_t v)
+/// Residuals of this moment beside the sizes that they have in the sums; `rate2` is that of the rates.
+static void watch(jcal_functional_t *self, const seen_t *seen, float rate2, float motion_s)
 {
-    return (m[6] * v.x) + (m[7] * v.y) + (m[8] * v.z);
-}
-
-/// Residuals of this moment beside the sizes that they have in the sums.
-static void watch(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2, float motion_s)
-{
-    const jcal_functional_point_t *const point = &self->point;
     const jcal_plane_t heading = self->track.heading;
-    const float turn = apart2(heading, horizontal(tick1->turn, point->j1), vertical(tick1->turn, point->j1),
-                              horizontal(tick2->turn, point->j2), vertical(tick2->turn, point->j2));
-    const float rate = apart2(heading, horizontal(tick1->rate, point->j1), vertical(tick1->rate, point->j1),
-                              horizontal(tick2->rate, point->j2), vertical(tick2->rate, point->j2));
-    const float lever =
-        apart2(heading, centre_velocity(tick1, point->r1), tick1->velocity.z - vertical(tick1->lever, point->r1),
-               centre_velocity(tick2, point->r2), tick2->velocity.z - vertical(tick2->lever, point->r2));
-    const float squares[JCAL_FAMILIES] = {0.5f * turn, 0.5f * rate / (self->rate2 + WATCH_REST_RATE2), lever / 3.0f};
+    const float turn2 = apart2(heading, seen->axis1, seen->axis2);
+    const float lever2 = apart2(heading, seen->velocity1, seen->velocity2);
+    const float squares[JCAL_FAMILIES] = {0.5f * turn2, 0.5f * rate2 / (self->rate2 + WATCH_REST_RATE2), lever2 / 3.0f};
     const float share = motion_s / (motion_s + WATCH_S);
     for (unsigned f = 0u; f < JCAL_FAMILIES; ++f) {
-        const float square = jcal_min(squares[f] / point->size[f], WATCH_CLIP);
+        const float square = jcal_min(squares[f] / self->point.size[f], WATCH_CLIP);
         self->track.recent[f] += share * (square - self->track.recent[f]);
     }
 }
@@ -138,16 +138,17 @@ void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1
     const float all_s = jcal_max(self->sums.motion_s, FLT_MIN);
     const float turn = motion_s * point->weight[JCAL_FAMILY_TURN] / all_s;
     const float lever = motion_s * point->weight[JCAL_FAMILY_LEVER] / all_s;
-    const jcal_plane_t by_axis =
-        jcal_plane_against(horizontal(tick2->turn, point->j2), horizontal(tick1->turn, point->j1));
-    const jcal_plane_t by_centre =
-        jcal_plane_against(centre_velocity(tick2, point->r2), centre_velocity(tick1, point->r1));
+    const seen_t seen = seen_by(point, tick1, tick2);
+    const jcal_plane_t by_axis = jcal_plane_against(horizontal(seen.axis2), horizontal(seen.axis1));
+    const jcal_plane_t by_centre = jcal_plane_against(horizontal(seen.velocity2), horizontal(seen.velocity1));
     track->sum.re = (fade * track->sum.re) + (turn * by_axis.re) + (lever * by_centre.re);
     track->sum.im = (fade * track->sum.im) + (turn * by_axis.im) + (lever * by_centre.im);
     if (jcal_plane_norm2(track->sum) > FLT_MIN) {
         track->heading = jcal_plane_direction(track->sum);
         track->known = true;
-        watch(self, tick1, tick2, motion_s);
+        const jcal_vec3_t rate1 = jcal_functional_times(tick1->rate, point->j1);
+        const jcal_vec3_t rate2 = jcal_functional_times(tick2->rate, point->j2);
+        watch(self, &seen, apart2(track->heading, rate1, rate2), motion_s);
     }
 }
 

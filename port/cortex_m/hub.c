@@ -30,7 +30,8 @@ static bool run(const jcal_pair_t *pair, jcal_functional_result_t *result)
         (void)jcal_functional_add(&joint, jcal_sensor_tick(&sensors[0]), jcal_sensor_tick(&sensors[1]));
     }
     (void)jcal_functional_step(&joint);
-    hub_axis_x = jcal_functional_flexion(&joint, jcal_sensor_orientation(&sensors[0]), jcal_sensor_orientation(&sensors[1]));
+    hub_axis_x =
+        jcal_functional_flexion(&joint, jcal_sensor_orientation(&sensors[0]), jcal_sensor_orientation(&sensors[1]));
     return jcal_functional_get(&joint, result) == JCAL_OK;
 }
 #elif !defined(HUB_EMPTY)

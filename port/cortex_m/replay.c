@@ -395,8 +395,8 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {
     hash = hash_u64(hash, (r->for_axes ? 1u : 0u) + (r->for_flexion ? 2u : 0u) + (r->heading.known ? 4u : 0u), 4);
-    const float flexion = jcal_functional_flexion(&replayed, jcal_sensor_orientation(&sensors[0]),
-                                                  jcal_sensor_orientation(&sensors[1]));
+    const float flexion =
+        jcal_functional_flexion(&replayed, jcal_sensor_orientation(&sensors[0]), jcal_sensor_orientation(&sensors[1]));
     const float floats[] = {r->axis1.x,
                             r->axis1.y,
                             r->axis1.z,

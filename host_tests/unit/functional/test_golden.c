@@ -255,11 +255,11 @@ static void what_blocks_take_from_the_axes(void)
         for (size_t b = 0; b < 2; ++b) {
             float nuisance[6];
             float coupling[12];
+            float slope[3];
+            jcal_functional_bound_slope(&joint.sums, &joint.point, b, slope);
             jcal_functional_bound_nuisance(&joint.sums, &joint.point, b, nuisance);
             jcal_functional_bound_coupling(&joint.sums, &joint.point, b, coupling);
             expect(&golden_nuisances[p][6 * b], nuisance, 6, SOLVE_TOL, 0.0);
-            float slope[3];
-            jcal_functional_bound_slope(&joint.sums, &joint.point, b, slope);
             expect(&golden_nuisance_slopes[p][3 * b], slope, 3, SOLVE_TOL, size_of(&golden_nuisances[p][6 * b], 6));
             const double *const free = &golden_couplings[p][18 * b];
             const double scale = size_of(free, 18);

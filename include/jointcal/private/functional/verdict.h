@@ -15,11 +15,11 @@ extern "C" {
 
 /// What has been found out about the estimate.
 typedef struct {
-    float hessian[10];              ///< Information about both axes, two tangents each, on its way (4 x 4, packed).
-    float slope[4];                 ///< Of the cost by the same tangents, on its way.
+    float hessian[10];  ///< Information about both axes, two tangents each, on its way (4 x 4, packed).
+    float slope[4];     ///< Of the cost by the same tangents, on its way.
     float block_share[JCAL_FUNCTIONAL_BLOCKS];  ///< Share of each block in all motion when these were begun.
-    float bound1_rad, bound2_rad;   ///< 95 % bounds of the axes.
-    float flexion_rad;              ///< Error that the axes make in the joint's angle, rms.
+    float bound1_rad, bound2_rad;               ///< 95 % bounds of the axes.
+    float flexion_rad;                          ///< Error that the axes make in the joint's angle, rms.
     float evidence[JCAL_FAMILIES];  ///< Logarithm of the odds for this pairing of signs, of each kind of residual.
     float opposite;                 ///< Mean square that the other pairing leaves of the lever residual, (m/s)^2.
     float share;                    ///< Share of the relative rate that is along the axis.
