@@ -99,7 +99,8 @@ def row_of(label: str, windows_of: list[Windows]) -> list:
     errors, bounds = (np.concatenate([getattr(w, what) for w in windows_of]) for what in ("errors_deg", "bounds_deg"))
     one = windows_of[0] if len(windows_of) == 1 else None
     return [label, number(one.ready_s, 1) if one else "-", number(one.rms_deg) if one else "-", len(errors), number(median(errors)),
-            number(quantile(errors, 0.95)), number(max(errors, default=np.nan)), number(median(bounds)), percent((errors <= bounds).sum(), len(errors)),
+            number(quantile(errors, 0.95)), number(max(errors, default=np.nan)), number(median(bounds)),
+            percent((errors <= bounds).sum(), len(errors)),
             number(median(bounds) / median(errors) if len(errors) else np.nan, 1), percent(one.row_covered, 1) if one and len(errors) else "-"]
 
 
@@ -123,6 +124,6 @@ def measure(settings: Settings, report: Report) -> None:
     mine = [found[name] for name in REQUIRED if name in found]
     for w in mine:
         report.require_share(f"{w.name}: windows whose rms error is within their bound", w.covered, len(w.errors_deg), COVERED)
-    if mine:
+    if len(mine) == len(REQUIRED):
         errors, bounds = (np.concatenate([getattr(w, what) for w in mine]) for what in ("errors_deg", "bounds_deg"))
         report.require_most("all windows of people: median bound over median error", median(bounds) / median(errors), SHARPEST)

@@ -329,12 +329,14 @@ def report_parts(report: Report, parts: list[PartVerdict], wholes: list[Whole]) 
                 hits = [sum(p.covered[k] for p in known) for k in range(2)]
                 only = [p for p in known if p.reason in NOTHING_WRONG]
                 both = [sum(p.covered[0] and p.covered[1] for p in some) for some in (only, ready)]
-                rows.append([f"{kind}s", word, f"{length:g} s", len(mine), len(known), sum(p.other for p in known), *(percent(hit, len(known)) for hit in hits),
+                rows.append([f"{kind}s", word, f"{length:g} s", len(mine), len(known), sum(p.other for p in known),
+                             *(percent(hit, len(known)) for hit in hits),
                              len(only), percent(both[0], len(only)), len(ready), percent(both[1], len(ready)),
                              number(median([error for p in known for error in p.errors_deg]), 1),
                              number(median([bound for p in known for bound in p.bounds_deg]), 1),
                              number(median([whole[p.name] for p in known]), 1)])
-    report.table(["joints", "filters", "parts of", "parts", "with bounds", "other pairing", "covered, axis 1", "axis 2", "ready or only uncertain", "both covered", "ready", "both covered",
+    report.table(["joints", "filters", "parts of", "parts", "with bounds", "other pairing", "covered, axis 1", "axis 2",
+                  "ready or only uncertain", "both covered", "ready", "both covered",
                   "error", "bound", "bound of the whole"], rows)
     for kind in KINDS:
         for word, warm in TEMPERATURES:

@@ -17,7 +17,7 @@ FOR_FLEXION = "flexion"
 FLEXION_AXES_DEG = 15.0  # of axes that are ready for flexion: so far off they cost 1.2 deg of a knee's angle
 PURPOSES = (*(f"{limit:g} deg" for limit in LIMITS_DEG), FOR_FLEXION)
 ENGINES = {"either": True, "functional": False}
-QUICK_RUNS = 120
+QUICK_RUNS = 50
 EVERY_TICKS = 10  # of those that are ready, for cases in which it depends on the axes
 LISTED = 8  # of a class and engine
 # Classes in which the functional model is ready for a reason that is known: the most of them, in parts of the runs, and the reason.
