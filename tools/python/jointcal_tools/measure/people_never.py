@@ -22,7 +22,7 @@ EVERY_TICKS = 10  # of those that are ready, for cases in which it depends on th
 LISTED = 8  # of a class and engine
 # Classes in which the functional model is ready for a reason that is known: the most of them, in parts of the runs, and the reason.
 KNOWN: dict[tuple[str, str], tuple[float, str]] = {
-    ("functional", "rig_2D"): (0.07, "One axis alone had moved until then, or nearly, and was found; it stays ready for up to 2 s after the "
+    ("functional", "rig_2D"): (0.07, "One axis alone had moved until then, or nearly, and was found; it stays ready for some seconds after the "
                                      "other axis begins to move, then the status says more_axes. rig_2D:35 is none of these: both axes moved"),
     ("functional", "all_negated"): (0.08, "Both accelerometers negated: gravity and the places of the sensors change sign with them, all equations "
                                           "hold, axes and angle are right. all_negated:19 is none of these: one accelerometer was negated"),
