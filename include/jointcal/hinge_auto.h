@@ -4,7 +4,8 @@
 ///
 /// Rigid segments have axes that are exact, and the rigid model (hinge.h) finds them to a fraction of a degree. On a person it never
 /// fits, and rightly: skin moves. There the functional model (functional.h) finds the axis that explains most of the bending, and what
-/// that is worth in degrees of flexion. The functional model speaks only where the rates show that the segments are not rigid.
+/// that is worth in degrees of flexion. The functional model speaks only where the rates show that the segments are not rigid;
+/// and a rigid hinge is believed only if the functional model has nothing against it.
 ///
 /// How it is used:
 ///

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// A hinge of either kind: which of two models is believed. See hinge_auto.h.
+#include "joint/hysteresis.h"
 #include "jointcal/functional_pair.h"
 #include "jointcal/hinge_auto.h"
 #include "jointcal/vec3.h"
@@ -14,6 +15,14 @@
 /// Where the rates agree about an axis to this share of themselves, the segments are rigid, and the rigid model will find the axis
 /// better than the functional one, or has a reason not to.
 #define RIGID_RATE_SHARE 0.08f
+
+/// What the functional model must say before the rigid one is believed. Lengths of rates, which the rigid model begins with, can be those of
+/// a hinge by chance or by a fault: two sensors on one stiff body that vibrate, a component with the wrong sign, frames exchanged. Levels
+/// and directions then do not agree. A tenth more or twice of what rigs and simulated soft tissue of 1.5 deg ever showed (docs/METHOD_PEOPLE.md, section 8).
+#define STIFFNESS_MIN 0.05f
+#define BEND_MIN_RAD 0.14f
+#define RATE_SHARE_MAX 0.15f
+#define ALONG_MIN 0.9f
 
 jcal_hinge_auto_config_t jcal_hinge_auto_config_default(void)
 {
@@ -56,9 +65,36 @@ jcal_status_t jcal_hinge_auto_init(jcal_hinge_auto_t *self, const jcal_hinge_aut
     }
     const jcal_functional_config_t functional = functional_config(config);
     jcal_clear(&self->inbox, sizeof self->inbox);
+    self->believed = false;
     const jcal_status_t status = jcal_hinge_init(&self->rigid, &config->hinge);
     return (status == JCAL_OK) ? jcal_functional_pair_init(&self->functional, &functional, &config->hinge.gate)
                                : status;
+}
+
+/// What the functional model has against a rigid hinge.
+static jcal_reason_t objection(const jcal_functional_t *functional, float slack)
+{
+    const jcal_functional_verdict_t *const verdict = &functional->verdict;
+    if (!functional->search.has_estimate || !(verdict->bend_rad > 0.0f)) {
+        return JCAL_REASON_UNCERTAIN; /* not judged yet */
+    }
+    if (!((slack * verdict->stiffness) >= STIFFNESS_MIN) || !((slack * verdict->bend_rad) >= BEND_MIN_RAD)) {
+        return JCAL_REASON_NO_BEND;
+    }
+    const float across2 = functional->point.size[JCAL_FAMILY_RATE];
+    if (!(across2 <= (slack * slack * RATE_SHARE_MAX * RATE_SHARE_MAX)) || !((slack * verdict->share) >= ALONG_MIN)) {
+        return JCAL_REASON_DOES_NOT_FIT;
+    }
+    return JCAL_REASON_NONE;
+}
+
+/// The rigid model says ready, and the functional one objects.
+static void say_objection(jcal_head_t *head, jcal_reason_t reason)
+{
+    head->status = JCAL_COLLECTING;
+    head->reason = reason;
+    head->weak = JCAL_WEAK_AXIS1;
+    head->hint = (reason == JCAL_REASON_DOES_NOT_FIT) ? JCAL_HINT_CHECK_SENSORS : JCAL_HINT_MOVE_JOINT;
 }
 
 jcal_status_t jcal_hinge_auto_update(jcal_hinge_auto_t *self, const jcal_pair_t *pair)
@@ -75,6 +111,9 @@ jcal_status_t jcal_hinge_auto_update(jcal_hinge_auto_t *self, const jcal_pair_t 
     if ((after.head.status == JCAL_MOVED) && (before.head.status != JCAL_MOVED)) {
         (void)jcal_functional_reset(&self->functional.joint); /* what it learnt is of the sensors as they sat before */
     }
+    const float slack = self->believed ? JCAL_HYSTERESIS : 1.0f;
+    self->believed =
+        (after.head.status == JCAL_READY) && (objection(&self->functional.joint, slack) == JCAL_REASON_NONE);
     return status;
 }
 
@@ -147,7 +186,11 @@ jcal_status_t jcal_hinge_auto_get(const jcal_hinge_auto_t *self, jcal_hinge_auto
     *out = (jcal_hinge_auto_result_t){0};
     (void)jcal_hinge_get(&self->rigid, &out->hinge);
     (void)jcal_functional_pair_get(&self->functional, &functional);
-    const jcal_head_t *const rigid = &out->hinge.head;
+    jcal_head_t *const rigid = &out->hinge.head;
+    if ((rigid->status == JCAL_READY) && !self->believed) {
+        const jcal_reason_t reason = objection(&self->functional.joint, 1.0f);
+        say_objection(rigid, (reason == JCAL_REASON_NONE) ? JCAL_REASON_UNCERTAIN : reason);
+    }
     const bool settled = (rigid->status == JCAL_READY) || (rigid->status == JCAL_MOVED);
     const bool unfit = functional.has_axes && (rigid->reason == JCAL_REASON_DOES_NOT_FIT);
     if (!settled && (is_person(&functional) || (unfit && (functional.head.status != JCAL_READY)))) {

@@ -125,7 +125,6 @@ MUTATIONS = [
      "out[0] = -sign * jcal_vec3_dot(to, axis->u);", "direction of the pull"),
     (FORGET, "((1.0f - keep) / pivot)", "(keep / pivot)", "forgetting one axis"),
     (FORGET, "self->matrix[jcal_sym_at(i, p)] = keep * column[i];", "(void)keep;", "what is left of a row"),
-    (FORGET, "#define ROUNDING (64.0f * FLT_EPSILON)", "#define ROUNDING 0.0f", "a pivot that is rounding"),
     (ENGINE, "(self->verdict.contradicted ? motion_s : -motion_s)", "-motion_s", "sums that no hinge explains"),
     (JUDGE, "(blank && !is_explained(self, STRAINED_MIN))", "false", "sums of which no axis comes"),
     (REFINE,

@@ -91,6 +91,15 @@ static void write_row(const jcal_hinge_auto_t *engine, bool either, size_t sampl
     memcpy(row, values, sizeof(values));
 }
 
+static void write_turns(const jcal_hinge_auto_t *engine, float turns[static 8])
+{
+    for (unsigned which = 1u; which <= 2u; ++which) {
+        const jcal_quat_t q = jcal_hinge_auto_orientation(engine, which);
+        const float values[4] = {q.w, q.x, q.y, q.z};
+        memcpy(turns + 4u * (which - 1u), values, sizeof(values));
+    }
+}
+
 int32_t jcal_batch_functional(const jcal_batch_functional_options_t *options, const jcal_batch_input_t *in,
                               jcal_batch_functional_out_t *out)
 {
@@ -113,11 +122,16 @@ int32_t jcal_batch_functional(const jcal_batch_functional_options_t *options, co
             .imu1 = {.gyr_rad_s = {v[0], v[1], v[2]}, .acc_m_s2 = {v[3], v[4], v[5]}},
             .imu2 = {.gyr_rad_s = {v[6], v[7], v[8]}, .acc_m_s2 = {v[9], v[10], v[11]}},
         };
+        if ((options->hold > 0) && (k >= (size_t)options->hold)) { /* no slice of solving is paid for any more */
+            engine.functional.joint.cfg.slices_per_s = 0.0f;
+            engine.functional.joint.credit = 0.0f;
+        }
         if (options->either != 0) {
             (void)jcal_hinge_auto_update(&engine, &pair);
         } else {
             (void)jcal_functional_pair_update(&engine.functional, &pair);
         }
+        write_turns(&engine, out->turns + k * 8);
         if (k < (size_t)options->begin) {
             engine.rigid = fresh.rigid;
             engine.functional.joint = fresh.functional.joint;

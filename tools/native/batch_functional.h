@@ -19,11 +19,13 @@ typedef struct {
     int32_t sign_hint;
     int32_t either; /* 1: as of a hinge of either kind; 0: as of the functional model alone */
     int32_t begin;  /* samples that come before this one go to the sensors only, so that their filters have settled */
+    int32_t hold;   /* from this sample on the estimate stays as it is and the heading is followed with it; 0: never */
 } jcal_batch_functional_options_t;
 
 typedef struct {
     float *rows;    /* at most count x JCAL_BATCH_FUNCTIONAL_COLUMNS */
     float *flexion; /* count, rad, after each sample; NaN while there is none */
+    float *turns;   /* count x 8, orientations of both sensors to their level frames after each sample: w, x, y, z */
     uint64_t row_count;
 } jcal_batch_functional_out_t;
 

@@ -30,7 +30,7 @@ int32_t jcal_batch_sensor(const uint64_t *t_us, const float *values, size_t coun
             write_tick(tick, out->ticks + out->tick_count * JCAL_BATCH_TICK_COLUMNS);
             out->tick_count++;
         }
-        const jcal_quat_t q = jcal_sensor_orientation(&sensor);
+        const jcal_quat_t q = sensor.attitude.q_s_e; /* R of the features; what is given is half a sample further on */
         const jcal_vec3_t b = jcal_sensor_gyr_bias(&sensor);
         const float orientation[] = {q.w, q.x, q.y, q.z};
         const float bias[] = {b.x, b.y, b.z};

@@ -11,7 +11,7 @@
 #define JCAL_BATCH_TICK_COLUMNS 37
 
 typedef struct {
-    float *orientations; /* count x 4, after each sample */
+    float *orientations; /* count x 4, after each sample: R of the features */
     float *biases;       /* count x 3, rad/s */
     uint64_t *tick_us;   /* at most count */
     float *ticks;        /* at most count x JCAL_BATCH_TICK_COLUMNS */

@@ -209,7 +209,8 @@ static exit_status_t finish(session_t *session)
     hub_session_tell_counters(&session->hub, session->options.counters);
     check_findings_t findings;
     check_findings(&session->check, &findings);
-    return (session->hub.estimate.result.hinge.head.status == JCAL_READY && !findings.refuses) ? EXIT_READY : EXIT_NOT_READY;
+    return (session->hub.estimate.result.hinge.head.status == JCAL_READY && !findings.refuses) ? EXIT_READY
+                                                                                               : EXIT_NOT_READY;
 }
 
 static exit_status_t run_rows(session_t *session)

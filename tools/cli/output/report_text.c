@@ -109,7 +109,7 @@ const char *report_reason(const report_t *report)
     case JCAL_REASON_NO_BEND:
         return "the segments move, but the joint between them hardly bends";
     case JCAL_REASON_MORE_AXES:
-        return "the joint turns about more than one axis";
+        return "the joint turns about more than one axis; of one that has two, as an elbow, 'jointcal two-dof' finds both";
     case JCAL_REASON_NONE:
     default:
         return NULL;

@@ -23,11 +23,12 @@ class Options(ctypes.Structure):
     """jcal_batch_functional_options_t of tools/native/batch_functional.h."""
 
     _fields_ = [("max_bound_rad", ctypes.c_float), ("max_flexion_rad", ctypes.c_float), ("slices_per_s", ctypes.c_float),
-                ("sign_hint", ctypes.c_int32), ("either", ctypes.c_int32), ("begin", ctypes.c_int32)]
+                ("sign_hint", ctypes.c_int32), ("either", ctypes.c_int32), ("begin", ctypes.c_int32),
+                ("hold", ctypes.c_int32)]
 
 
 class Output(ctypes.Structure):
-    _fields_ = [("rows", ctypes.c_void_p), ("flexion", ctypes.c_void_p), ("row_count", ctypes.c_uint64)]
+    _fields_ = [("rows", ctypes.c_void_p), ("flexion", ctypes.c_void_p), ("turns", ctypes.c_void_p), ("row_count", ctypes.c_uint64)]
 
 
 @dataclass
@@ -52,6 +53,8 @@ class Track:
     r2: np.ndarray
     inside: dict[str, np.ndarray]  # what it is judged by, NAMES
     flexion_deg: np.ndarray  # (N,)
+    q1: np.ndarray  # (N, 4) sensors to their level frames
+    q2: np.ndarray
 
     @property
     def ready(self) -> np.ndarray:
@@ -62,9 +65,9 @@ class Track:
 
 
 def run(rec: Recording, max_bound_deg: float | None = None, max_flexion_deg: float | None = None,
-        slices_per_s: float | None = None, sign_hint: str = "unknown", either: bool = False, begin: int = 0) -> Track:
+        slices_per_s: float | None = None, sign_hint: str = "unknown", either: bool = False, begin: int = 0, hold: int = 0) -> Track:
     """A fresh instance over the whole recording; `either`: what both models say together. Samples before `begin` go to the
-    sensors' filters only."""
+    sensors' filters only. From sample `hold` on, if it is not 0, axes stay as they are and only the heading is followed."""
     lib = library()
     options = Options()
     lib.jcal_batch_functional_defaults(ctypes.byref(options))
@@ -74,12 +77,12 @@ def run(rec: Recording, max_bound_deg: float | None = None, max_flexion_deg: flo
         options.max_flexion_rad = np.radians(max_flexion_deg)
     if slices_per_s is not None:
         options.slices_per_s = slices_per_s
-    options.sign_hint, options.either, options.begin = SIGN_HINTS[sign_hint], int(either), begin
+    options.sign_hint, options.either, options.begin, options.hold = SIGN_HINTS[sign_hint], int(either), begin, hold
     data, t_us = values(rec), microseconds(rec.t_s)
     rows = np.zeros((len(data), COLUMNS), np.float32)
-    flexion = np.zeros(len(data), np.float32)
+    flexion, turns = np.zeros(len(data), np.float32), np.zeros((len(data), 8), np.float32)
     source = Input(t_us.ctypes.data, data.ctypes.data, len(data))
-    out = Output(rows.ctypes.data, flexion.ctypes.data, 0)
+    out = Output(rows.ctypes.data, flexion.ctypes.data, turns.ctypes.data, 0)
     done = lib.jcal_batch_functional(ctypes.byref(options), ctypes.byref(source), ctypes.byref(out))
     if done != 0:
         raise RuntimeError(f"jcal_batch_functional returned {done}")
@@ -89,7 +92,7 @@ def run(rec: Recording, max_bound_deg: float | None = None, max_flexion_deg: flo
     return Track((np.asarray(rec.t_s, float) - rec.t_s[0])[sample], sample, status, reason, weak, hint, rows[:, 4:7], rows[:, 7:10],
                  np.degrees(rows[:, 10:12]), np.degrees(rows[:, 12]), rows[:, 13] > 0, rows[:, 14] > 0, rows[:, 15] > 0,
                  np.degrees(rows[:, 16]), rows[:, 17:20], rows[:, 20:23], dict(zip(NAMES, rows[:, 23:39].T, strict=True)),
-                 np.degrees(flexion.astype(float)))
+                 np.degrees(flexion.astype(float)), turns[:, :4].astype(float), turns[:, 4:].astype(float))
 
 
 __all__ = ["Track", "run", "reason_name"]

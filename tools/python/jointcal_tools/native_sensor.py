@@ -41,7 +41,7 @@ class Ticks:
 
 @dataclass
 class Found:
-    q: np.ndarray  # (N, 4) sensor to earth
+    q: np.ndarray  # (N, 4) sensor to earth, as the features have it
     bias: np.ndarray  # (N, 3) rad/s
     ticks: Ticks
 

@@ -91,6 +91,7 @@ ACTIVITIES = {
                     ringing_deg=2.2, jolt_m_s2=3.5),
     "sit_to_stand": Activity(0.5, 3.0, 0.25, bend_deg=(-80.0, 98.0), free_deg=(1.0, 1.0, 1.0), turning_deg=2.0, drift_m_s2=0.1),
     "squat": Activity(0.7, 3.5, 0.4, bend_deg=(-85.0, 110.0), free_deg=(2.0, 1.5, 1.5), turning_deg=4.0, drift_m_s2=0.2),
+    "slow_squat": Activity(0.4, 2.5, 0.12, bend_deg=(-60.0, 80.0), free_deg=(1.0, 1.0, 1.0), free_hz=(0.05, 0.3), turning_deg=2.0, drift_m_s2=0.03),
     "swing": Activity(0.2, 1.5, 0.7, seated=True, bend_deg=(-85.0, 40.0), free_deg=(0.2, 0.3, 3.0), turning_deg=0.3, drift_m_s2=0.03),
     "random": Activity(1.0, 4.0, free_deg=(10.0, 18.0, 22.0), turning_deg=35.0, drift_m_s2=1.5),
     "stand": Activity(0.1, 0.3, free_deg=(0.3, 0.4, 0.5), free_hz=(0.1, 1.0), turning_deg=0.5, drift_m_s2=0.05),

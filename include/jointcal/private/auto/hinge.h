@@ -17,7 +17,7 @@ typedef struct {
     jcal_inbox_t inbox;  ///< Pairs that were pushed and wait for step.
     jcal_hinge_t rigid;
     jcal_functional_pair_t functional;
-    int8_t kept_sign;  ///< Of axis 1, from the first `ready` on; lib/joint/sign.h.
+    bool believed;  ///< The rigid model is ready, and the functional one has nothing against it.
 } jcal_hinge_auto_t;
 
 #ifdef __cplusplus
