@@ -10,6 +10,13 @@
 
 #include <string.h>
 
+/* Hinges of a test that tries many. On an emulated target the made-up motion is what takes time; few show that the code is the same. */
+#ifdef JCAL_TEST_SHORT
+enum { EXACT = 2, BOUNDED = 3, READY = 4 };
+#else
+enum { EXACT = 10, BOUNDED = 30, READY = 60 };
+#endif
+
 static run_t run;
 static run_t other;
 
@@ -59,7 +66,7 @@ static hinge_t some_hinge(int number)
 
 static void an_exact_hinge_is_found(void)
 {
-    for (int number = 0; number < 10; ++number) {
+    for (int number = 0; number < EXACT; ++number) {
         const hinge_t hinge = some_hinge(number);
         run_begin(&run, &hinge, NULL);
         TEST_ASSERT_FALSE(run_result(&run).has_axes);
@@ -89,8 +96,8 @@ static void an_exact_hinge_is_found(void)
 /* Every judgement that is ready has both axes within their bounds, from the first on; nearly plane motion is the hard case. */
 static void nothing_ready_is_beyond_its_bounds(void)
 {
-    for (int k = 0; k <= 30; ++k) {
-        const int number = (k < 30) ? k : 179; /* the last one is nearly plane at first */
+    for (int k = 0; k <= BOUNDED; ++k) {
+        const int number = (k < BOUNDED) ? k : 179; /* the last one is nearly plane at first */
         const hinge_t hinge = some_hinge(number);
         run_begin(&run, &hinge, NULL);
         run.next = (uint32_t)(37 * number);
@@ -332,7 +339,7 @@ static void a_heading_that_drifts_is_no_slip(void)
 /* What estimates before the first ready left is no sign of a slip. */
 static void ready_is_no_slip(void)
 {
-    for (int number = 0; number < 60; ++number) {
+    for (int number = 0; number < READY; ++number) {
         const hinge_t hinge = some_hinge(number);
         run_begin(&run, &hinge, NULL);
         run.next = (uint32_t)(53 * number);
