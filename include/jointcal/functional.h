@@ -41,10 +41,11 @@ typedef struct {
     bool for_flexion;  ///< While ready: the error of the angle is within max_flexion_rad.
     bool
         is_rigid;  ///< The rates fit as those of rigid segments do: the axes are the joint's own, not only those of this motion.
-    jcal_vec3_t axis1;              ///< Unit axis in sensor frame 1; its sign as in hinge.h.
-    jcal_vec3_t axis2;              ///< Unit axis in sensor frame 2, sign following the pairing.
-    float uncertainty1_rad;         ///< 95 % bound of axis1: of what other parts of the same motion would give.
-    float uncertainty2_rad;         ///< The same for axis2.
+    jcal_vec3_t axis1;       ///< Unit axis in sensor frame 1; its sign as in hinge.h.
+    jcal_vec3_t axis2;       ///< Unit axis in sensor frame 2, sign following the pairing.
+    float uncertainty1_rad;  ///< 95 % bound of axis1: of what other parts of the same motion would give; a right angle
+                             ///< while it is unknown, as while the sums are not those of one joint with one axis.
+    float uncertainty2_rad;  ///< The same for axis2.
     float flexion_uncertainty_rad;  ///< Error that the axes make in the angle, rms.
     float rate_share;  ///< Rates across the axis as a share of the rates, rms: what rigid segments would not leave.
     float bend_rad;    ///< How far the joint bent so far, rms about its mean.

@@ -4,6 +4,8 @@
 #include "joint/hysteresis.h"
 #include "jointcal/functional_pair.h"
 #include "jointcal/hinge_auto.h"
+#include "jointcal/joint_angles.h"
+#include "jointcal/joint_heading.h"
 #include "jointcal/vec3.h"
 #include "math/clear.h"
 #include "math/scalar.h"
@@ -23,6 +25,9 @@
 #define BEND_MIN_RAD 0.14f
 #define RATE_SHARE_MAX 0.15f
 #define ALONG_MIN 0.9f
+
+/// Memory of the heading that follows from the rigid model's axes, s.
+#define HEADING_MEMORY_S 10.0f
 
 jcal_hinge_auto_config_t jcal_hinge_auto_config_default(void)
 {
@@ -97,6 +102,20 @@ static void say_objection(jcal_head_t *head, jcal_reason_t reason)
     head->hint = (reason == JCAL_REASON_DOES_NOT_FIT) ? JCAL_HINT_CHECK_SENSORS : JCAL_HINT_MOVE_JOINT;
 }
 
+/// The heading offset by the rigid model's axes: the functional model may take longer to find the pairing of their signs.
+static void follow_heading(jcal_hinge_auto_t *self, const jcal_hinge_result_t *hinge, uint64_t t_us, bool goes_on)
+{
+    const jcal_status_t status =
+        goes_on ? jcal_joint_heading_improve(&self->heading, hinge->axis1, hinge->axis2, 0.0f)
+                : jcal_joint_heading_hinge(&self->heading, hinge->axis1, hinge->axis2, HEADING_MEMORY_S);
+    if (status != JCAL_OK) {
+        return; /* axes of a hinge that is ready have directions */
+    }
+    const jcal_orientation_pair_t pair = {t_us, jcal_hinge_auto_orientation(self, 1u),
+                                          jcal_hinge_auto_orientation(self, 2u)};
+    (void)jcal_joint_heading_push(&self->heading, &pair);
+}
+
 jcal_status_t jcal_hinge_auto_update(jcal_hinge_auto_t *self, const jcal_pair_t *pair)
 {
     if ((self == NULL) || (pair == NULL)) {
@@ -111,9 +130,13 @@ jcal_status_t jcal_hinge_auto_update(jcal_hinge_auto_t *self, const jcal_pair_t 
     if ((after.head.status == JCAL_MOVED) && (before.head.status != JCAL_MOVED)) {
         (void)jcal_functional_reset(&self->functional.joint); /* what it learnt is of the sensors as they sat before */
     }
-    const float slack = self->believed ? JCAL_HYSTERESIS : 1.0f;
+    const bool was_believed = self->believed;
+    const float slack = was_believed ? JCAL_HYSTERESIS : 1.0f;
     self->believed =
         (after.head.status == JCAL_READY) && (objection(&self->functional.joint, slack) == JCAL_REASON_NONE);
+    if (self->believed) {
+        follow_heading(self, &after, pair->t_us, was_believed);
+    }
     return status;
 }
 
@@ -204,10 +227,25 @@ jcal_status_t jcal_hinge_auto_get(const jcal_hinge_auto_t *self, jcal_hinge_auto
         &self->functional.joint, jcal_max(out->hinge.uncertainty1_rad, out->hinge.uncertainty2_rad));
     out->gravity_off_m_s2 = functional.gravity_off_m_s2;
     out->heading = functional.heading;
+    if (self->believed) {
+        (void)jcal_joint_heading_get(&self->heading, &out->heading);
+    }
     out->has_levers = functional.has_axes;
     out->joint_to_sensor1_m = functional.joint_to_sensor1_m;
     out->joint_to_sensor2_m = functional.joint_to_sensor2_m;
     return JCAL_OK;
+}
+
+/// The angle about the rigid model's axes.
+static float rigid_flexion(const jcal_hinge_auto_t *self, const jcal_hinge_auto_result_t *result)
+{
+    jcal_joint_frames_t frames;
+    if (!result->heading.known || (jcal_frames_hinge(result->hinge.axis1, result->hinge.axis2, &frames) != JCAL_OK)) {
+        return NAN;
+    }
+    return jcal_hinge_angles(jcal_joint_orientation(&frames, jcal_hinge_auto_orientation(self, 1u),
+                                                    jcal_hinge_auto_orientation(self, 2u), result->heading.heading_rad))
+        .flexion_rad;
 }
 
 float jcal_hinge_auto_flexion(const jcal_hinge_auto_t *self)
@@ -219,6 +257,9 @@ float jcal_hinge_auto_flexion(const jcal_hinge_auto_t *self)
     jcal_functional_result_t functional;
     (void)jcal_hinge_auto_get(self, &result);
     (void)jcal_functional_pair_get(&self->functional, &functional);
+    if (self->believed) {
+        return rigid_flexion(self, &result);
+    }
     const float sign = (jcal_vec3_dot(result.hinge.axis1, functional.axis1) < 0.0f) ? -1.0f : 1.0f;
     return sign * jcal_functional_pair_flexion(&self->functional);
 }

@@ -38,6 +38,8 @@
 #define SPEED_NOISE2 6e-4f
 /// The joint's centre must move at this speed, squared, both sides together, (m/s)^2: the sense of an axis hangs on that.
 #define SPEED_MIN2 0.03f
+/// With a hint about the pairing: twice the noise, or nothing tells whether there is one joint.
+#define SPEED_HINTED2 (2.0f * SPEED_NOISE2)
 #define OPPOSITE_MIN 4.0f
 #define OPPOSITE_LEAST2 3e-4f
 #define LEVER_EVIDENCE_MIN 3.0f
@@ -83,9 +85,6 @@ static bool is_paired(const jcal_functional_t *self, float slack)
         return false;
     }
     const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
-    if (!((slack * self->point.speed2) >= SPEED_MIN2)) {
-        return false;
-    }
     return ((slack * (verdict->opposite - SPEED_NOISE2)) >= (OPPOSITE_MIN * jcal_max(left, OPPOSITE_LEAST2))) &&
            ((slack * verdict->evidence[JCAL_FAMILY_LEVER]) >= LEVER_EVIDENCE_MIN);
 }
@@ -102,6 +101,10 @@ static jcal_reason_t find_reason(const jcal_functional_t *self, float slack)
     }
     if (!((2.0f * self->point.size[JCAL_FAMILY_TURN]) <= (slack * LEANING_MAX * LEANING_MAX))) {
         return JCAL_REASON_DOES_NOT_FIT;
+    }
+    const float needed = (self->cfg.sign_hint == JCAL_SIGN_UNKNOWN) ? SPEED_MIN2 : SPEED_HINTED2;
+    if (!((slack * self->point.speed2) >= needed)) {
+        return JCAL_REASON_SIGN_OPEN; /* too slow for any of what follows to mean much */
     }
     if (!is_one_joint(self, slack)) {
         return JCAL_REASON_NOT_ONE_JOINT;

@@ -278,6 +278,48 @@ static void null_and_wrong_settings_are_errors(void)
     TEST_ASSERT_NULL(jcal_ready_for_string(JCAL_FOR_NOTHING));
 }
 
+/* One stiff body that turns; sensor 2 vibrates on its strap at 33 Hz about one line, by `amplitude` rad/s. The lengths of both rates are
+   those of a hinge about that line. */
+static jcal_pair_t vibrating_at(uint32_t k, float amplitude)
+{
+    const float t = 1e-6f * (float)PERIOD_US * (float)k;
+    const float pitch = 0.9f * sinf(1.1f * t);
+    const float yaw_rate = 0.42f * cosf(0.7f * t);
+    const jcal_imu_t body = {{-yaw_rate * sinf(pitch), 0.99f * cosf(1.1f * t), yaw_rate * cosf(pitch)},
+                             {-9.81f * sinf(pitch), 0.0f, 9.81f * cosf(pitch)}};
+    jcal_pair_t pair = {1000u + (uint64_t)k * PERIOD_US, body, body};
+    const float vibration = amplitude * sinf(207.345f * t);
+    pair.imu2.gyr_rad_s.x += 0.6f * vibration;
+    pair.imu2.gyr_rad_s.z += 0.8f * vibration;
+    for (int i = 0; i < 3; ++i) { /* real sensors do not repeat themselves */
+        (&pair.imu1.gyr_rad_s.x)[i] += 5e-3f * sinf((9.1f * (float)k) + (float)i);
+        (&pair.imu2.gyr_rad_s.x)[i] += 5e-3f * sinf((11.3f * (float)k) + (float)i);
+        (&pair.imu1.acc_m_s2.x)[i] += 0.1f * sinf((15.7f * (float)k) + (float)i);
+        (&pair.imu2.acc_m_s2.x)[i] += 0.1f * sinf((17.9f * (float)k) + (float)i);
+    }
+    return pair;
+}
+
+static void a_stiff_body_with_a_vibrating_sensor_is_no_hinge(void)
+{
+    const float amplitudes[3] = {0.5f, 1.0f, 2.0f};
+    for (int a = 0; a < 3; ++a) {
+        bool rigid_was_ready = false;
+        begin(NULL);
+        for (uint32_t k = 0u; k < 3000u; ++k) {
+            const jcal_pair_t pair = vibrating_at(k, amplitudes[a]);
+            (void)jcal_hinge_auto_update(&knee, &pair);
+            jcal_hinge_result_t rigid;
+            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_get(&knee.rigid, &rigid));
+            rigid_was_ready = rigid_was_ready || (rigid.head.status == JCAL_READY);
+            TEST_ASSERT_TRUE(result().hinge.head.status != JCAL_READY);
+        }
+        TEST_ASSERT_TRUE(rigid_was_ready); /* or this would prove nothing */
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_BEND, result().hinge.head.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_JOINT, result().hinge.head.hint);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -289,5 +331,6 @@ int main(void)
     RUN_TEST(the_inbox_changes_nothing);
     RUN_TEST(orientations_are_of_the_sensor_that_is_asked_for);
     RUN_TEST(null_and_wrong_settings_are_errors);
+    RUN_TEST(a_stiff_body_with_a_vibrating_sensor_is_no_hinge);
     return UNITY_END();
 }

@@ -5,6 +5,7 @@
 #define JCAL_PRIVATE_AUTO_HINGE_H
 
 #include "jointcal/private/functional/pair.h"
+#include "jointcal/private/heading.h"
 #include "jointcal/private/hinge/stream.h"
 #include "jointcal/private/inbox.h"
 
@@ -17,7 +18,8 @@ typedef struct {
     jcal_inbox_t inbox;  ///< Pairs that were pushed and wait for step.
     jcal_hinge_t rigid;
     jcal_functional_pair_t functional;
-    bool believed;  ///< The rigid model is ready, and the functional one has nothing against it.
+    jcal_joint_heading_t heading;  ///< Of the rigid model's axes, while it is believed.
+    bool believed;                 ///< The rigid model is ready, and the functional one has nothing against it.
 } jcal_hinge_auto_t;
 
 #ifdef __cplusplus
