@@ -118,8 +118,16 @@ static void bound_parts(jcal_functional_t *joint, unsigned from, unsigned to)
     }
 }
 
+/* Trace of what is left of the axes' information. */
+static float left_of(const jcal_functional_t *joint)
+{
+    const float *const h = joint->verdict.hessian;
+    return h[0] + h[2] + h[5] + h[9];
+}
+
 /* Ticks that come between the slices of the bounds make a young block larger than it was when they were begun: what is taken from the
- * axes' information is of the block as it was. */
+ * axes' information is of the block as it was. A block of three times the same is the clearest case; only what ties turns to their
+ * headings does not grow with it. */
 static void ticks_between_the_slices_of_the_bounds(void)
 {
     static jcal_functional_t apart;
@@ -129,25 +137,20 @@ static void ticks_between_the_slices_of_the_bounds(void)
     while (run.joint.sums.block[1].motion_s == 0.0f) { /* until a block was closed and the next begins */
         run_tick(&run);
     }
-    run_for(&run, 0.2);
-    const float begun_s = run.joint.sums.block[0].motion_s;
-    apart = run.joint;
+    run_for(&run, 0.3);
     at_once = run.joint;
-    bound_parts(&at_once, 0u, 3u);
-    bound_parts(&apart, 0u, 1u);
-    for (int k = 0; k < 8; ++k) {
-        jcal_tick_t tick1;
-        jcal_tick_t tick2;
-        run_make(&run, &tick1, &tick2);
-        ++run.next;
-        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_functional_add(&apart, &tick1, &tick2));
+    bound_parts(&at_once, 0u, 1u);
+    const float before = left_of(&at_once);
+    apart = at_once;
+    float *const block = (float *)&apart.sums.block[0]; /* nothing but floats */
+    for (size_t i = 0; i < sizeof apart.sums.block[0] / sizeof *block; ++i) {
+        block[i] *= 3.0f;
     }
-    TEST_ASSERT_TRUE(apart.sums.block[0].motion_s > 2.0f * begun_s);
-    bound_parts(&apart, 1u, 3u);
-    for (size_t i = 0; i < 4; ++i) {
-        const float wanted = at_once.verdict.hessian[jcal_sym_at(i, i)];
-        TEST_ASSERT_FLOAT_WITHIN(0.1f * wanted, wanted, apart.verdict.hessian[jcal_sym_at(i, i)]);
-    }
+    bound_parts(&at_once, 1u, 2u);
+    bound_parts(&apart, 1u, 2u);
+    const float taken = before - left_of(&at_once);
+    TEST_ASSERT_TRUE(taken > 0.0f);
+    TEST_ASSERT_FLOAT_WITHIN(0.2f * taken, taken, before - left_of(&apart));
 }
 
 int main(void)
