@@ -118,6 +118,11 @@ static void rigid_segments_are_the_rigid_models(void)
         TEST_ASSERT_EQUAL_INT(JCAL_FOR_AXES, result().ready_for);
         expect_axes_within(1.0, 0.0);
     }
+    const float usual = knee.functional.joint.point.size[JCAL_FAMILY_RATE];
+    knee.functional.joint.point.size[JCAL_FAMILY_RATE] =
+        0.04f; /* whatever the functional model thinks, this one is ready */
+    TEST_ASSERT_EQUAL_INT(JCAL_MODEL_RIGID, result().model);
+    knee.functional.joint.point.size[JCAL_FAMILY_RATE] = usual;
     const jcal_hinge_auto_result_t now = result();
     TEST_ASSERT_TRUE(now.has_levers && now.heading.known && (now.bend_rad > 0.1f));
     TEST_ASSERT_TRUE((now.flexion_uncertainty_rad > 0.0f) &&
