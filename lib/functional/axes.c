@@ -83,9 +83,11 @@ static void slopes(const jcal_functional_quadric_t *h, jcal_vec3_t a, jcal_vec3_
     *slope2 = jcal_vec3_add(jcal_functional_times_left(h->h12, a), jcal_functional_times_packed(h->h22, b));
 }
 
-void jcal_functional_tangent_hessian(const jcal_functional_quadric_t *h, jcal_vec3_t j1, jcal_vec3_t j2, bool bend,
+void jcal_functional_tangent_hessian(const jcal_functional_quadric_t *h, const jcal_vec3_t j[2], bool bend,
                                      float *hessian, float *slope)
 {
+    const jcal_vec3_t j1 = j[0];
+    const jcal_vec3_t j2 = j[1];
     const jcal_tangent_t t1 = jcal_sphere_tangent(j1);
     const jcal_tangent_t t2 = jcal_sphere_tangent(j2);
     jcal_vec3_t slope1;
@@ -117,9 +119,10 @@ void jcal_functional_step_axes(const jcal_functional_quadric_t *h, jcal_vec3_t *
 {
     float hessian[JCAL_SYM_SIZE(4u)];
     float step[4];
-    jcal_functional_tangent_hessian(h, *j1, *j2, true, hessian, step);
+    const jcal_vec3_t j[2] = {*j1, *j2};
+    jcal_functional_tangent_hessian(h, j, true, hessian, step);
     if (!jcal_chol4_factor(hessian)) { /* far from a minimum: downhill without the spheres' bend */
-        jcal_functional_tangent_hessian(h, *j1, *j2, false, hessian, step);
+        jcal_functional_tangent_hessian(h, j, false, hessian, step);
         if (!jcal_chol4_factor(hessian)) {
             return;
         }

@@ -36,7 +36,7 @@ void jcal_functional_quadric(const jcal_functional_sums_t *sums, const jcal_func
 
 /// Second derivative of the cost along the tangents of both axes (4 x 4, packed; j1's first), without what the spheres' bend takes
 /// off it if `bend` is false; slope (4) <- the first derivative.
-void jcal_functional_tangent_hessian(const jcal_functional_quadric_t *h, jcal_vec3_t j1, jcal_vec3_t j2, bool bend,
+void jcal_functional_tangent_hessian(const jcal_functional_quadric_t *h, const jcal_vec3_t j[2], bool bend,
                                      float *hessian, float *slope);
 
 /// One Newton step of both axes on their spheres, at most 0.4 rad long. Cost: about 250 multiply-adds.

@@ -224,8 +224,8 @@ void jcal_functional_bound(jcal_functional_t *self, unsigned part)
         jcal_functional_quadric_t h;
         jcal_functional_cross(&self->sums, &self->point, &x);
         jcal_functional_quadric(&self->sums, &x, &self->point, &h);
-        jcal_functional_tangent_hessian(&h, self->point.j1, self->point.j2, true, self->verdict.hessian,
-                                        self->verdict.slope);
+        const jcal_vec3_t j[2] = {self->point.j1, self->point.j2};
+        jcal_functional_tangent_hessian(&h, j, true, self->verdict.hessian, self->verdict.slope);
         jcal_functional_describe(self, &x);
         for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
             self->verdict.block_share[b] = block_share(&self->sums, b);
