@@ -107,7 +107,9 @@ static void axes_or_the_angle(void)
 static void a_hint_that_the_data_contradict(void)
 {
     good.cfg.sign_hint = JCAL_SIGN_SAME;
-    good.point.speed2 = 0.001f;
+    expect_limit(&good.point.speed2, 0.00122f, 0.00118f, JCAL_REASON_SIGN_OPEN);
+    good.cfg.sign_hint = JCAL_SIGN_SAME;
+    good.point.speed2 = 0.002f;
     good.verdict.opposite = 0.0f;
     good.verdict.evidence[0] = 0.0f;
     good.verdict.evidence[1] = 0.0f;
