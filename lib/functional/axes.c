@@ -86,19 +86,17 @@ static void slopes(const jcal_functional_quadric_t *h, jcal_vec3_t a, jcal_vec3_
 void jcal_functional_tangent_hessian(const jcal_functional_quadric_t *h, const jcal_vec3_t j[2], bool bend,
                                      float *hessian, float *slope)
 {
-    const jcal_vec3_t j1 = j[0];
-    const jcal_vec3_t j2 = j[1];
-    const jcal_tangent_t t1 = jcal_sphere_tangent(j1);
-    const jcal_tangent_t t2 = jcal_sphere_tangent(j2);
+    const jcal_tangent_t t1 = jcal_sphere_tangent(j[0]);
+    const jcal_tangent_t t2 = jcal_sphere_tangent(j[1]);
     jcal_vec3_t slope1;
     jcal_vec3_t slope2;
-    slopes(h, j1, j2, &slope1, &slope2);
+    slopes(h, j[0], j[1], &slope1, &slope2);
     slope[0] = jcal_vec3_dot(t1.u, slope1);
     slope[1] = jcal_vec3_dot(t1.v, slope1);
     slope[2] = jcal_vec3_dot(t2.u, slope2);
     slope[3] = jcal_vec3_dot(t2.v, slope2);
-    const float off1 = bend ? jcal_vec3_dot(j1, slope1) : 0.0f;
-    const float off2 = bend ? jcal_vec3_dot(j2, slope2) : 0.0f;
+    const float off1 = bend ? jcal_vec3_dot(j[0], slope1) : 0.0f;
+    const float off2 = bend ? jcal_vec3_dot(j[1], slope2) : 0.0f;
     const jcal_vec3_t h1u = jcal_functional_times_packed(h->h11, t1.u);
     const jcal_vec3_t h2u = jcal_functional_times_packed(h->h22, t2.u);
     const jcal_vec3_t x1u = jcal_functional_times_left(h->h12, t1.u);

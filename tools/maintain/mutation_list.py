@@ -607,7 +607,7 @@ MUTATIONS = [
     (F_AXES, "energy += (rows[f] / memory_s[f]) * jcal_ln(size);", "energy += rows[f] * jcal_ln(size);", "readings of each kind"),
     (F_AXES, "out->h12[i] = -((turn * x->turn[i]) + (rate * x->rate[i]));", "out->h12[i] = (turn * x->turn[i]) + (rate * x->rate[i]);",
      "sign of both sensors' products"),
-    (F_AXES, "const float off2 = bend ? jcal_vec3_dot(j2, slope2) : 0.0f;", "const float off2 = 0.0f;", "bend of the second sphere"),
+    (F_AXES, "const float off2 = bend ? jcal_vec3_dot(j[1], slope2) : 0.0f;", "const float off2 = 0.0f;", "bend of the second sphere"),
     (F_AXES, "hessian[7] = jcal_vec3_dot(t2.v, x1v);", "hessian[7] = jcal_vec3_dot(t2.v, x1u);", "an element between both axes"),
     (F_AXES, "#define STEP_MAX_RAD 0.4f", "#define STEP_MAX_RAD 4e-3f", "longest step"),
     (F_AXES, "v1[i] -= common * v0[i];", "v1[i] += common * v0[i];", "second direction that is open"),

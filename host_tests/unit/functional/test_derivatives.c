@@ -189,8 +189,8 @@ static void of_the_axes(void)
     float slope[4];
     jcal_functional_cross(&run.joint.sums, &run.joint.point, &x);
     jcal_functional_quadric(&run.joint.sums, &x, &run.joint.point, &h);
-    const jcal_vec3_t j[2] = {run.joint.point.j1, run.joint.point.j2};
-    jcal_functional_tangent_hessian(&h, j, true, hessian, slope);
+    const jcal_vec3_t axes[2] = {run.joint.point.j1, run.joint.point.j2};
+    jcal_functional_tangent_hessian(&h, axes, true, hessian, slope);
     const double scale = (double)jcal_max(jcal_max(h.h11[0], h.h11[2]), h.h11[5]);
     for (int i = 0; i < 4; ++i) {
         TEST_ASSERT_DOUBLE_WITHIN(TOLERANCE * scale, slope_by(0, i), (double)slope[i]);

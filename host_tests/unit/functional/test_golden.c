@@ -193,8 +193,8 @@ static void cost_of_the_axes_and_a_newton_step(void)
         const jcal_tangent_t t[2] = {jcal_sphere_tangent(joint.point.j1), jcal_sphere_tangent(joint.point.j2)};
         float hessian[10];
         float slope[4];
-        const jcal_vec3_t j[2] = {joint.point.j1, joint.point.j2};
-        jcal_functional_tangent_hessian(&h, j, true, hessian, slope);
+        const jcal_vec3_t axes[2] = {joint.point.j1, joint.point.j2};
+        jcal_functional_tangent_hessian(&h, axes, true, hessian, slope);
         const double scale = size_of(&golden_quadric[p][0], 6);
         for (int i = 0; i < 4; ++i) {
             const double *const free = &golden_quadric[p][21 + 3 * (i / 2)];
