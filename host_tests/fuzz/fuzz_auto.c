@@ -43,19 +43,33 @@ static bool is_zero(jcal_vec3_t v)
 static void require_words(const jcal_head_t *head)
 {
     require(head->status >= JCAL_COLLECTING && head->status <= JCAL_MOVED);
-    require(jcal_calibration_string(head->status) != NULL && jcal_reason_string(head->reason) != NULL);
-    require(jcal_weak_string(head->weak) != NULL && jcal_hint_string(head->hint) != NULL);
-    require((head->status == JCAL_READY) == (head->reason == JCAL_REASON_NONE));
-    require((head->reason == JCAL_REASON_NONE) == (head->weak == JCAL_WEAK_NONE));
-    require((head->reason == JCAL_REASON_NONE) == (head->hint == JCAL_HINT_NONE));
+    require(jcal_calibration_string(head->status) != NULL);
+    const bool ready = head->status == JCAL_READY;
+    require(ready == (head->reason == JCAL_REASON_NONE) && ready == (jcal_reason_string(head->reason) == NULL));
+    require(ready == (head->weak == JCAL_WEAK_NONE) && ready == (jcal_weak_string(head->weak) == NULL));
+    require(ready == (head->hint == JCAL_HINT_NONE) && ready == (jcal_hint_string(head->hint) == NULL));
     require((head->status == JCAL_AMBIGUOUS) == (head->reason == JCAL_REASON_SIGN_OPEN));
+}
+
+/* Ready only for what is within its limits. */
+static void check_ready(const jcal_functional_result_t *r)
+{
+    const jcal_functional_config_t config = jcal_functional_config_default();
+    const float slack = 1.25f;
+    require(r->has_axes && (r->for_axes || r->for_flexion));
+    require(!r->for_axes ||
+            (r->uncertainty1_rad < slack * config.max_bound_rad && r->uncertainty2_rad < slack * config.max_bound_rad));
+    require(!r->for_flexion || r->flexion_uncertainty_rad < slack * config.max_flexion_rad);
 }
 
 static void check_functional(const jcal_functional_result_t *r)
 {
     require_words(&r->head);
-    require(r->head.status != JCAL_READY);
-    require(!r->for_axes && !r->for_flexion);
+    if (r->head.status == JCAL_READY) {
+        check_ready(r);
+    } else {
+        require(!r->for_axes && !r->for_flexion);
+    }
     if (r->has_axes) {
         require(is_unit(r->axis1) && is_unit(r->axis2));
     } else {
@@ -138,12 +152,14 @@ static jcal_tick_t tick_at(const uint8_t *data, reading_t reading, uint64_t t_us
     return out;
 }
 
-static void check_joint(const jcal_functional_t *joint)
+/* Ticks that are made up may be those of a perfect joint: their parts need not belong together. Those of readings must. */
+static void check_joint(const jcal_functional_t *joint, bool may_be_ready)
 {
     jcal_functional_result_t result;
     const jcal_quat_t one = jcal_quat(1.0f, 0.0f, 0.0f, 0.0f);
     require(jcal_functional_get(joint, &result) == JCAL_OK);
     check_functional(&result);
+    require(may_be_ready || result.head.status != JCAL_READY);
     const float flexion = jcal_functional_flexion(joint, one, one);
     require(result.has_axes ? (flexion >= -PI && flexion <= PI) : isnan(flexion));
 }
@@ -164,11 +180,11 @@ static void run_ticks(const uint8_t *data, size_t size, reading_t reading, unsig
             const jcal_status_t added = jcal_functional_add(&joint, &tick1, &tick2);
             require(added == JCAL_OK || added == JCAL_REJECTED);
             for (int k = 0; k < 10 && jcal_functional_step(&joint) == JCAL_OK; k++) {
-                check_joint(&joint);
+                check_joint(&joint, true);
             }
         }
     }
-    check_joint(&joint);
+    check_joint(&joint, true);
 }
 
 static jcal_pair_t pair_at(const uint8_t *data, reading_t reading, uint64_t t_us)
@@ -199,7 +215,7 @@ static void run_sensors(const uint8_t *data, size_t size, reading_t reading, uns
                 (void)jcal_functional_add(&joint, jcal_sensor_tick(&sensors[0]), jcal_sensor_tick(&sensors[1]));
             }
             (void)jcal_functional_step(&joint);
-            check_joint(&joint);
+            check_joint(&joint, false);
             const jcal_quat_t q = jcal_sensor_orientation(&sensors[0]);
             require_within((q.w * q.w) + (q.x * q.x) + (q.y * q.y) + (q.z * q.z), 0.999f, 1.001f);
         }
