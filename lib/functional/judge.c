@@ -89,6 +89,22 @@ static bool is_paired(const jcal_functional_t *self, float slack)
            ((slack * verdict->evidence[JCAL_FAMILY_LEVER]) >= LEVER_EVIDENCE_MIN);
 }
 
+/// What says that this is no joint with one axis: then there is none that a bound could be of.
+static jcal_reason_t find_objection(const jcal_functional_t *self, float slack)
+{
+    const jcal_functional_verdict_t *const verdict = &self->verdict;
+    if (!is_one_joint(self, slack)) {
+        return JCAL_REASON_NOT_ONE_JOINT;
+    }
+    if (!((slack * verdict->bend_rad) >= BEND_MIN_RAD) || !((slack * verdict->stiffness) >= STIFFNESS_MIN)) {
+        return JCAL_REASON_NO_BEND;
+    }
+    if (!((slack * verdict->share) >= SHARE_MIN) || !bends_clearly(self, slack)) {
+        return JCAL_REASON_MORE_AXES;
+    }
+    return JCAL_REASON_NONE;
+}
+
 /// The first thing that keeps the estimate from being ready, the worst first.
 static jcal_reason_t find_reason(const jcal_functional_t *self, float slack)
 {
@@ -104,16 +120,11 @@ static jcal_reason_t find_reason(const jcal_functional_t *self, float slack)
     }
     const float needed = (self->cfg.sign_hint == JCAL_SIGN_UNKNOWN) ? SPEED_MIN2 : SPEED_HINTED2;
     if (!((slack * self->point.speed2) >= needed)) {
-        return JCAL_REASON_SIGN_OPEN; /* too slow for any of what follows to mean much */
+        return JCAL_REASON_SIGN_OPEN; /* too slow for what follows to mean much */
     }
-    if (!is_one_joint(self, slack)) {
-        return JCAL_REASON_NOT_ONE_JOINT;
-    }
-    if (!((slack * verdict->bend_rad) >= BEND_MIN_RAD) || !((slack * verdict->stiffness) >= STIFFNESS_MIN)) {
-        return JCAL_REASON_NO_BEND;
-    }
-    if (!((slack * verdict->share) >= SHARE_MIN) || !bends_clearly(self, slack)) {
-        return JCAL_REASON_MORE_AXES;
+    const jcal_reason_t against = find_objection(self, slack);
+    if (against != JCAL_REASON_NONE) {
+        return against;
     }
     if (!is_paired(self, slack)) {
         return JCAL_REASON_SIGN_OPEN;
@@ -150,6 +161,8 @@ void jcal_functional_judge(jcal_functional_t *self)
     verdict->for_flexion =
         (verdict->flexion_rad <= (slack * self->cfg.max_flexion_rad)) && (bound <= (slack * BOUND_FOR_FLEXION_RAD));
     const jcal_reason_t found = find_reason(self, slack);
+    verdict->is_one_axis = (found != JCAL_REASON_GRAVITY_OFF) && (found != JCAL_REASON_DOES_NOT_FIT) &&
+                           (find_objection(self, slack) == JCAL_REASON_NONE);
     verdict->agreed =
         (uint8_t)((found != JCAL_REASON_NONE) ? 0u : jcal_min((float)verdict->agreed + 1.0f, (float)AGREED_MIN));
     const bool ready = verdict->agreed >= AGREED_MIN;

@@ -37,21 +37,6 @@ static void say_axes(const jcal_functional_t *self, jcal_functional_result_t *ou
     out->heading.heading_rad = self->track.known ? jcal_atan2(self->track.heading.im, self->track.heading.re) : 0.0f;
 }
 
-/// True if the sums are not those of one joint with one axis: then there is no axis that a bound could be of.
-static bool is_no_axis(jcal_reason_t reason)
-{
-    switch (reason) {
-    case JCAL_REASON_DOES_NOT_FIT:
-    case JCAL_REASON_GRAVITY_OFF:
-    case JCAL_REASON_NOT_ONE_JOINT:
-    case JCAL_REASON_NO_BEND:
-    case JCAL_REASON_MORE_AXES:
-        return true;
-    default:
-        return false;
-    }
-}
-
 jcal_status_t jcal_functional_get(const jcal_functional_t *self, jcal_functional_result_t *out)
 {
     if ((self == NULL) || (out == NULL)) {
@@ -67,7 +52,7 @@ jcal_status_t jcal_functional_get(const jcal_functional_t *self, jcal_functional
     out->head.samples = self->ticks;
     out->head.t_us = self->last_us;
     out->has_axes = self->search.has_estimate;
-    const bool unknown = is_no_axis(out->head.reason);
+    const bool unknown = !verdict->is_one_axis;
     out->uncertainty1_rad = unknown ? JCAL_BOUND_UNKNOWN_RAD : verdict->bound1_rad;
     out->uncertainty2_rad = unknown ? JCAL_BOUND_UNKNOWN_RAD : verdict->bound2_rad;
     out->flexion_uncertainty_rad = unknown ? JCAL_BOUND_UNKNOWN_RAD : verdict->flexion_rad;

@@ -28,7 +28,7 @@ static void take(double to[3], jcal_vec3_t from)
 
 static place_t place_of(const jcal_functional_point_t *point)
 {
-    place_t out;
+    place_t out = {0};
     take(out.j[0], point->j1);
     take(out.j[1], point->j2);
     for (int b = 0; b < 2; ++b) {

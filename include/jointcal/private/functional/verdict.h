@@ -27,6 +27,7 @@ typedef struct {
     float stiffness;                ///< What one fixed rotation between the rates leaves of the smaller one.
     uint8_t status, reason, weak, hint;
     uint8_t agreed;    ///< Judgements in a row that found nothing against `ready`.
+    bool is_one_axis;  ///< Nothing says that there is no axis, whatever else keeps it from being ready.
     bool for_axes;     ///< The bounds of the axes are within their limit.
     bool for_flexion;  ///< The error of the angle is.
 } jcal_functional_verdict_t;
