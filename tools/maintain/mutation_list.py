@@ -639,6 +639,8 @@ MUTATIONS = [
     (F_JUDGE, "#define AGREED_MIN 3u", "#define AGREED_MIN 1u", "judgements that agree"),
     (F_JUDGE, "return evidence > -EVIDENCE_MIN;", "return true;", "a hint that the data contradict"),
     (F_JUDGE, "(left - SPEED_NOISE2) <= (slack * LACK_MAX * speed2)", "(left - SPEED_NOISE2) <= (slack * speed2)", "two sensors that share no joint"),
+    (F_JUDGE, "(found != JCAL_REASON_DOES_NOT_FIT) &&", "", "bounds of an axis that leans"),
+    (F_JUDGE, "(find_objection(self, slack) == JCAL_REASON_NONE);", "true;", "bounds of a slow joint that does not bend"),
     (F_JUDGE, "(slack * BOUND_FOR_FLEXION_RAD)", "(9.0f * BOUND_FOR_FLEXION_RAD)", "axes that are no good for angles"),
     (F_LEVERS, "h[10] = -x[6];", "h[10] = -x[9];", "row and column of the levers"),
     (F_LEVERS, "#define RIDGE 0.005f", "#define RIDGE 0.05f", "ridge of the levers"),

@@ -4,6 +4,7 @@
 #include "functional/judge.h"
 
 #include "joint/hysteresis.h"
+#include "jointcal/functional.h"
 #include "unit/functional/fixture.h"
 
 static run_t run;
@@ -119,6 +120,35 @@ static void a_hint_that_the_data_contradict(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, judged(&good));
 }
 
+/* What get says of the axes after a judgement. */
+static float bound_told(const jcal_functional_t *joint)
+{
+    jcal_functional_t copy = *joint;
+    jcal_functional_judge(&copy);
+    jcal_functional_result_t result;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_functional_get(&copy, &result));
+    TEST_ASSERT_EQUAL_FLOAT(result.uncertainty1_rad, result.uncertainty2_rad);
+    return result.uncertainty1_rad;
+}
+
+/* Motion too slow for the pairing may still say that there is no axis. */
+static void no_bound_without_an_axis(void)
+{
+    TEST_ASSERT_EQUAL_FLOAT(good.verdict.bound1_rad, bound_told(&good));
+    good.point.speed2 = 0.02f;
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, judged(&good));
+    TEST_ASSERT_EQUAL_FLOAT(good.verdict.bound1_rad, bound_told(&good));
+    good.verdict.bend_rad = 0.1f;
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, judged(&good));
+    TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, bound_told(&good));
+    setUp();
+    good.gravity_off = 0.7f;
+    TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, bound_told(&good));
+    setUp();
+    good.point.size[JCAL_FAMILY_TURN] = 0.07f;
+    TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, bound_told(&good));
+}
+
 static void three_judgements_must_agree(void)
 {
     for (int k = 0; k < 3; ++k) {
@@ -141,6 +171,7 @@ int main(void)
     RUN_TEST(bending_is_to_be_clear);
     RUN_TEST(axes_or_the_angle);
     RUN_TEST(a_hint_that_the_data_contradict);
+    RUN_TEST(no_bound_without_an_axis);
     RUN_TEST(three_judgements_must_agree);
     return UNITY_END();
 }
