@@ -52,7 +52,7 @@ static jcal_reading_t reading_at(const uint8_t *data, kind_t kind, uint64_t *t_u
 static void check_tick(const jcal_tick_t *tick, uint64_t t_us)
 {
     require(tick->t_us == t_us && tick->epoch > 0 && tick->dt_s > 0.0f && tick->dt_s < 0.16f);
-    require(tick->since_s > 0.0f && tick->since_s <= 1000.0f && tick->acc_level_m_s2 >= 0.0f);
+    require(tick->since_s > 0.0f && tick->since_s <= 1000.0f && isfinite(tick->acc_level_m_s2));
     require(jcal_vec3_is_finite(tick->velocity) && jcal_vec3_is_finite(tick->gyr));
     for (int k = 0; k < 9; k++) {
         require(fabsf(tick->turn[k]) < 1.00001f && isfinite(tick->rate[k]) && isfinite(tick->lever[k]));

@@ -4,14 +4,12 @@
 #include "functional/track.h"
 
 #include "functional/model.h"
+#include "functional/twist.h"
 #include "joint/sign.h"
 #include "jointcal/functional.h"
-#include "jointcal/quat.h"
 #include "jointcal/vec3.h"
-#include "math/angle.h"
 #include "math/plane.h"
 #include "math/scalar.h"
-#include "math/sphere.h"
 
 #include <float.h>
 
@@ -29,24 +27,6 @@
 #define MOVED_RATE 15.0f
 #define MOVED_LEVER 22.0f
 
-/// Tangents u = j x e and v = j x u, e the sensor's axis number `from`: they follow the axis j without a jump, as long as j is not near e.
-static jcal_tangent_t zero_at(jcal_vec3_t j, uint8_t from)
-{
-    const jcal_vec3_t e = {(from == 0u) ? 1.0f : 0.0f, (from == 1u) ? 1.0f : 0.0f, (from == 2u) ? 1.0f : 0.0f};
-    const jcal_vec3_t u = jcal_vec3_normalise(jcal_vec3_cross(j, e));
-    const jcal_tangent_t out = {u, jcal_vec3_cross(j, u)};
-    return out;
-}
-
-/// Number of the component of smallest magnitude.
-static uint8_t smallest(jcal_vec3_t j)
-{
-    const float x = fabsf(j.x);
-    const float y = fabsf(j.y);
-    const float z = fabsf(j.z);
-    return (uint8_t)((x <= y) ? ((x <= z) ? 0u : 2u) : ((y <= z) ? 1u : 2u));
-}
-
 /// Nothing that was said against another estimate counts.
 static void forget(jcal_functional_track_t *self)
 {
@@ -62,8 +42,8 @@ void jcal_functional_track_trust(jcal_functional_t *self)
     forget(track);
     track->heading = self->point.heading[0];
     track->sum = (jcal_plane_t){size * track->heading.re, size * track->heading.im};
-    self->track.zero[0] = smallest(self->point.j1);
-    self->track.zero[1] = smallest(self->point.j2);
+    self->track.zero[0] = jcal_twist_zero(self->point.j1);
+    self->track.zero[1] = jcal_twist_zero(self->point.j2);
 }
 
 void jcal_functional_track_begin(jcal_functional_t *self)
@@ -165,21 +145,7 @@ float jcal_functional_flexion(const jcal_functional_t *self, jcal_quat_t orienta
     if ((self == NULL) || !self->search.has_estimate) {
         return NAN;
     }
-    const jcal_vec3_t j1 = self->point.j1;
-    const jcal_vec3_t j2 = self->point.j2;
-    const jcal_plane_t heading = self->track.heading;
-    const jcal_tangent_t t1 = zero_at(j1, self->track.zero[0]);
-    const jcal_tangent_t t2 = zero_at(j2, self->track.zero[1]);
-    /* Rows u1, v1 and columns u2, v2 of R1' Rz R2: its twist about the axes. */
-    const jcal_vec3_t level[2] = {jcal_quat_rotate(orientation2, t2.u), jcal_quat_rotate(orientation2, t2.v)};
-    float m[4];
-    for (size_t k = 0u; k < 2u; ++k) {
-        const jcal_vec3_t in_l1 = {(heading.re * level[k].x) - (heading.im * level[k].y),
-                                   (heading.im * level[k].x) + (heading.re * level[k].y), level[k].z};
-        const jcal_vec3_t in_1 = jcal_quat_rotate(jcal_quat_conj(orientation1), in_l1);
-        m[k] = jcal_vec3_dot(t1.u, in_1);
-        m[2u + k] = jcal_vec3_dot(t1.v, in_1);
-    }
-    const float sign = jcal_sign_of(j1, self->cfg.axis1_toward, self->kept_sign[0]);
-    return sign * jcal_atan2(m[2] - m[1], m[0] + m[3]);
+    const jcal_twist_t twist = {self->point.j1, self->point.j2, {self->track.zero[0], self->track.zero[1]}};
+    const float sign = jcal_sign_of(self->point.j1, self->cfg.axis1_toward, self->kept_sign[0]);
+    return sign * jcal_twist_angle(&twist, self->track.heading, orientation1, orientation2);
 }

@@ -67,7 +67,10 @@ F_SEARCH = "lib/functional/search.c"
 F_STREAM = "lib/functional/stream.c"
 F_SUMS = "lib/functional/sums.c"
 F_TRACK = "lib/functional/track.c"
+F_TWIST = "lib/functional/twist.c"
 AUTO = "lib/auto/hinge.c"
+A_JUDGE = "lib/auto/judge.c"
+A_RESULT = "lib/auto/result.c"
 DECAY = "lib/math/decay.c"
 
 MUTATIONS = [
@@ -669,15 +672,16 @@ MUTATIONS = [
     (F_TRACK, "const float fade = 1.0f / (1.0f + (tick1->dt_s / MEMORY_S));", "const float fade = 1.0f;", "the heading of this moment fades"),
     (F_TRACK, "jcal_vec3_sub(tick->velocity, jcal_functional_times(tick->lever, r))", "jcal_vec3_add(tick->velocity, jcal_functional_times(tick->lever, r))",
      "velocity of the joint's centre"),
-    (F_TRACK, "return sign * jcal_atan2(m[2] - m[1], m[0] + m[3]);", "return sign * jcal_atan2(m[1] - m[2], m[0] + m[3]);", "sense of the angle"),
+    (F_TWIST, "return jcal_atan2(m[2] - m[1], m[0] + m[3]);", "return jcal_atan2(m[1] - m[2], m[0] + m[3]);", "sense of the angle"),
+    (F_TRACK, "return sign * jcal_twist_angle(", "return jcal_twist_angle(", "sense of the angle about the axis that is reported"),
     (F_PAIR, "const float due = 1.0f + (0.9f * slices_per_s * dt_s);", "const float due = 0.0f * slices_per_s * dt_s;", "slices for a reading"),
-    (AUTO, "#define RIGID_RATE_SHARE 0.08f", "#define RIGID_RATE_SHARE 0.8f", "who is a person"),
-    (AUTO, "if (!settled && (is_person", "if ((is_person", "a rigid hinge that is ready"),
+    (A_RESULT, "#define RIGID_RATE_SHARE 0.08f", "#define RIGID_RATE_SHARE 0.8f", "who is a person"),
+    (A_RESULT, "if (!settled && (is_person", "if ((is_person", "a rigid hinge that is ready"),
     (AUTO, "(void)jcal_functional_reset(&self->functional.joint);", "(void)self->functional.joint;", "a slip that the rigid model found"),
     (AUTO, "out.axis1_toward = config->hinge.axis1_toward;", "(void)config->hinge.axis1_toward;", "settings of the functional model"),
-    (AUTO, "|| functional->for_axes) ? JCAL_FOR_AXES", "|| functional->for_flexion) ? JCAL_FOR_AXES", "what it is ready for"),
-    (AUTO, "(jcal_vec3_dot(result.hinge.axis1, functional.axis1) < 0.0f) ? -1.0f : 1.0f", "(jcal_vec3_dot(result.hinge.axis1, functional.axis1) > 0.0f) ? -1.0f : 1.0f",
-     "sense of the angle"),
+    (A_RESULT, "|| functional->for_axes) ? JCAL_FOR_AXES", "|| functional->for_flexion) ? JCAL_FOR_AXES", "what it is ready for"),
+    (A_RESULT, "self->has_zero ? self->zero :", "false ? self->zero :", "one zero whichever model speaks"),
+    (A_RESULT, "if (self->follows && (out->model == JCAL_MODEL_RIGID)) {", "if (self->believed) {", "the heading while the rigid model is not believed"),
     (TIE, "!hip->work.as.inverse.is_factored ||", "", "ties without a factor of the hip's"),
     (CJUDGE, "return inverse->is_factored;", "return true;", "a matrix without a factor"),
     (SENSOR, "return exceeds(&now[0], GYR_CLIP_MIN_RAD_S) &&", "return true &&", "a coarse reading at rest"),

@@ -131,6 +131,23 @@ static void rigid_segments_are_the_rigid_models(void)
     expect_flexion(k + 1000u, k + 1500u, 2.5 * HINGE_DEG);
 }
 
+/* The angle makes no step when the rigid model is not believed for a while, or when the functional one chooses another zero. */
+static void the_angle_has_one_zero(void)
+{
+    const uint32_t k = feed_until_ready(1500u);
+    feed(k, k + 500u);
+    const float before = jcal_hinge_auto_flexion(&knee);
+    TEST_ASSERT_TRUE(knee.has_zero && knee.believed);
+    for (int n = 0; n < 2; ++n) {
+        uint8_t *const zero = &knee.functional.joint.track.zero[n];
+        *zero = (uint8_t)((*zero + 1u) % 3u);
+        TEST_ASSERT_EQUAL_FLOAT(before, jcal_hinge_auto_flexion(&knee));
+    }
+    knee.believed = false;
+    TEST_ASSERT_EQUAL_INT(JCAL_FOR_NOTHING, result().ready_for);
+    TEST_ASSERT_EQUAL_FLOAT(before, jcal_hinge_auto_flexion(&knee));
+}
+
 /* Sensors on skin: the rigid model does not fit, and the functional one speaks. */
 static void a_person_is_the_functional_models(void)
 {
@@ -329,6 +346,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(rigid_segments_are_the_rigid_models);
+    RUN_TEST(the_angle_has_one_zero);
     RUN_TEST(a_person_is_the_functional_models);
     RUN_TEST(what_is_no_axis_may_be_good_for_the_angle);
     RUN_TEST(settings_reach_both_models);

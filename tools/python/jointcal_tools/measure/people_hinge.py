@@ -341,8 +341,11 @@ def report_parts(report: Report, parts: list[PartVerdict], wholes: list[Whole]) 
     for kind in KINDS:
         for word, warm in TEMPERATURES:
             known = [p for p in parts if people.JOINTS[p.name].kind == kind and p.warm == warm and p.known]
-            report.require_share(f"{kind}s, {word}: axes of parts within both bounds",
-                                 [sum(p.covered[k] for p in known) for k in range(2)], len(known), COVERED)
+            if known:
+                report.require_share(f"{kind}s, {word}: axes of parts within both bounds",
+                                     [sum(p.covered[k] for p in known) for k in range(2)], len(known), COVERED)
+            else:
+                report.text(f"{kind}s, {word}: no part states a bound.")
 
 
 def measure(settings: Settings, report: Report) -> None:
