@@ -22,9 +22,12 @@ BUDGETS = target.PORT / "budgets.json"
 PAGE = target.ROOT / "docs/measurements/budget.md"
 M4F = target.PLATFORMS["m4f"]
 ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
-TWO_DOF, CENTER, CHAIN = "two_dof_stream", "center_stream", "chain"
-DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN"}
+TWO_DOF, CENTER, CHAIN, SENSOR = "two_dof_stream", "center_stream", "chain", "sensor"
+FUNCTIONAL, AUTO = "functional_hinge", "hinge_auto"
+DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN", SENSOR: "REPLAY_SENSOR",
+           FUNCTIONAL: "REPLAY_FUNCTIONAL", AUTO: "REPLAY_AUTO"}
 INSTANCES, RATE_HZ = 16, 100
+KNEE = "people_knee_long_R1"
 SLICES_PER_S, TABLED_HZ = (200, 100, 50, 25), (50, 100)
 LISTED = 8
 
@@ -134,6 +137,62 @@ def chain(stack: dict[str, int]) -> dict:
             f"{CHAIN}_stack_call_graph_bytes": max(stack.get(f"jcal_chain_{name}", 0) for name in ("push", "step", "get"))}
 
 
+def sensor(stack: dict[str, int]) -> dict:
+    """The stage of one sensor at 100 Hz: jcal_sensor_push, also where no two distances of samples are the same."""
+    recording = target.recordings(["human_knee_left"])[0]
+    counts, _, printed = counts_of(target.build_plugin(), SENSOR, target.readings_file(recording, RATE_HZ), ("REPLAY_STACK",))
+    uneven, _, _ = counts_of(target.build_plugin(), SENSOR, target.readings_file(recording, RATE_HZ, jitter_us=2000), ())
+    return {f"{SENSOR}_step_instructions_max": max(counts["update"]),
+            f"{SENSOR}_step_instructions_mean": round(statistics.mean(counts["update"])),
+            f"{SENSOR}_step_instructions_median": round(statistics.median(counts["update"])),
+            f"{SENSOR}_step_instructions_uneven_max": max(uneven["update"]),
+            f"{SENSOR}_step_instructions_uneven_mean": round(statistics.mean(uneven["update"])),
+            f"{SENSOR}_state_bytes": printed["state"], f"{SENSOR}_stack_painted_bytes": printed["stack"],
+            f"{SENSOR}_stack_call_graph_bytes": stack.get("jcal_sensor_push", 0)}
+
+
+def by_readiness(key: str, counts: list[int], before_ready: int) -> dict:
+    """Means of updates until the first that is ready, and of those from there on; all of them if there is none."""
+    return {f"{key}_mean_until_ready": round(statistics.mean(counts[:before_ready] or counts)),
+            f"{key}_mean_once_ready": round(statistics.mean(counts[before_ready:] or counts))}
+
+
+def functional(stack: dict[str, int]) -> dict:
+    """The functional hinge on a knee at 100 Hz, without its sensors: each jcal_functional_add and each jcal_functional_step; per sample
+    both together."""
+    samples = target.samples_file(target.recordings([KNEE])[0], RATE_HZ)
+    split, worst, shown = counts_of(target.build_plugin(), FUNCTIONAL, samples, ("REPLAY_SPLIT", "REPLAY_SHOW_SLICES"))
+    counts, _, printed = counts_of(target.build_plugin(), FUNCTIONAL, samples, ("REPLAY_STACK",))
+    if "--profile" in sys.argv:
+        for slice_ in sorted(set(shown["slices"])):
+            of = [count for number, count in zip(shown["slices"], split["step"]) if number == slice_]
+            print(f"functional, slice {slice_}: {len(of)} times, max {max(of)}, mean {statistics.mean(of):.0f}")
+        for name, count in sorted(worst["step"].items(), key=lambda item: -item[1])[:LISTED]:
+            print(f"    {count:8d}  {name}")
+    calls = [f"jcal_functional_{name}" for name in ("add", "step", "get", "flexion")]
+    return {f"{FUNCTIONAL}_add_instructions_max": max(split["push"]), f"{FUNCTIONAL}_add_instructions_mean": round(statistics.mean(split["push"])),
+            f"{FUNCTIONAL}_step_instructions_max": max(split["step"]),
+            f"{FUNCTIONAL}_step_instructions_mean": round(sum(split["step"]) / printed["samples"]),
+            **by_readiness(f"{FUNCTIONAL}_sample_instructions", counts["update"], printed["before_ready"]),
+            f"{FUNCTIONAL}_sample_instructions_max": max(counts["update"]), f"{FUNCTIONAL}_state_bytes": printed["state"],
+            f"{FUNCTIONAL}_stack_painted_bytes": printed["stack"],
+            f"{FUNCTIONAL}_stack_call_graph_bytes": max(stack.get(name, 0) for name in calls),
+            f"{FUNCTIONAL}_code_bytes": linked_bytes("hub_functional", ("HUB_FUNCTIONAL",)) - linked_bytes("hub_empty", ("HUB_EMPTY",))}
+
+
+def hinge_auto(stack: dict[str, int]) -> dict:
+    """jcal_hinge_auto_update as a whole, on the same knee: both models and both sensors' stages."""
+    samples = target.samples_file(target.recordings([KNEE])[0], RATE_HZ)
+    counts, worst, printed = counts_of(target.build_plugin(), AUTO, samples, ("REPLAY_STACK",))
+    if "--profile" in sys.argv:
+        for name, count in sorted(worst["update"].items(), key=lambda item: -item[1])[:LISTED]:
+            print(f"    {count:8d}  {name}")
+    return {f"{AUTO}_update_instructions_max": max(counts["update"]),
+            **by_readiness(f"{AUTO}_update_instructions", counts["update"], printed["before_ready"]),
+            f"{AUTO}_state_bytes": printed["state"], f"{AUTO}_stack_painted_bytes": printed["stack"],
+            f"{AUTO}_stack_call_graph_bytes": max(stack.get(f"jcal_hinge_auto_{name}", 0) for name in ("update", "get", "flexion"))}
+
+
 def fewer_slices(recording: Path) -> dict:
     """Instructions of an update by slices_per_s and rate, on the first minute of the recording at that rate."""
     plugin, found = target.build_plugin(), {}
@@ -188,7 +247,7 @@ def measure(samples: Path, recording: Path) -> tuple[dict, dict]:
         numbers[f"hinge_{engine}_state_bytes"] = of["state"]
         numbers[f"hinge_{engine}_stack_painted_bytes"] = of["stack"]
         numbers[f"hinge_{engine}_stack_call_graph_bytes"] = stack.get(f"jcal_{prefix}_update", 0)
-    numbers |= two_dof(stack) | center(stack) | chain(stack)
+    numbers |= two_dof(stack) | center(stack) | chain(stack) | sensor(stack) | functional(stack) | hinge_auto(stack)
     numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
     numbers |= sixteen(recording)
     numbers["hub_flash_bytes"] = linked_bytes("hub") - linked_bytes("hub_empty", ("HUB_EMPTY",))
@@ -218,7 +277,10 @@ def page_of(numbers: dict, code: dict) -> str:
              "`hub_flash_bytes` what one stream engine, fed and read, adds to a linked image with unused sections dropped. Sixteen",
              "hinges: one image, one tick of 10 ms updates all, on the first minute of the recording interpolated to 100 Hz; all",
              "get the same samples, so that their busy moments coincide. `two_dof_stream`: the recording interpolated to 100 Hz (and 50),",
-             "orientations by VQF, whose cost is not in these numbers (port/vqf/README.md has it). In their busiest second that is "
+             "orientations by VQF, whose cost is not in these numbers (port/vqf/README.md has it). `sensor`: jcal_sensor_push, one sensor at 100 Hz;",
+             "`uneven`: samples up to 2 ms off, so that coefficients change with each. `functional_hinge`: a person's knee at 100 Hz, ticks and",
+             "steps without the stages of its sensors; `step_instructions_mean` is of all steps for a sample. `functional_hinge_code_bytes`: what two",
+             "sensors and one such hinge add to a linked image. `hinge_auto`: jcal_hinge_auto_update on the same knee, with all it contains. Sixteen hinges: in their busiest second that is "
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * low / 1e6:.0f} to",
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * high / 1e6:.0f} million cycles, by the estimate below, of 64 million.", "",
              "Instructions, not cycles; no board was measured. On paper, the instructions of the stream engine on this recording",
@@ -261,6 +323,8 @@ def main() -> int:
     samples = target.samples_file(recording)
     if arguments.profile:
         print_profile(instructions(samples))
+        functional({})
+        hinge_auto({})
         return 0
     numbers, code = measure(samples, recording)
     page = page_of(numbers, code)

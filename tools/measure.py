@@ -41,6 +41,10 @@ MEASUREMENTS = {
     "hinge_orientations": "What orientations would add to a hinge: 27 first moments, in float64",
     "lai22": "the methods of LAI22 as they are: kinds of low-pass, how often they are wrong",
     "people": "a person's elbow and knee: repeatability of parts",
+    "people_hinge": "people's joints as hinges: whole recordings, starts, parts",
+    "people_never": "wrong pairs, faulty sensors and joints that are no hinge must never be ready, people's model",
+    "people_sim": "simulated knees, ankles, elbows: time to ready, coverage, flexion",
+    "people_angles": "angles of a person's joint row by row beside references, and their bounds",
     "two_dof_sim": "2-DoF joint, simulated: coverage, sharpness, what must never be ready",
     "handling": "sensors handled before they are on the joint: how much later ready",
     "moved": "slips: how soon they are noticed, false alarms",
@@ -48,6 +52,7 @@ MEASUREMENTS = {
     "center": "joint centre: rig recordings, measured vectors, float64, parts, hinges",
     "center_sim": "joint centre, simulated: coverage, sharpness, what must never be ready, table I of OLS17",
     "chain": "hip and knee: SAL15 simulated, ingredient by ingredient, a person's thigh",
+    "sensor": "the stage of one sensor: beside VQF and optics, cold starts, bias",
     "cost": "time and memory, beside qmt",
 }
 MODULES = {"time": "time_to_ready", "lai22": "lai22_paper"}  # where the name differs

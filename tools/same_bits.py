@@ -16,13 +16,18 @@ from jointcal_tools import target  # noqa: E402
 HINGES = ["rig_1D_01", "rig_1D_02", "rig_1D_04"], "hinge_demo"
 CENTER = ["rig_3D_01", "rig_3D_02", "rig_2D_05"], "two_dof_demo"
 CHAIN = ["human_leg_left"], "chain_demo"
+KNEE = ["people_knee_long_R1", "knee_drop", "rig_1D_01"], "hinge_demo"
+SENSOR = ["knee_drop", "people_ankle_orthosis", "rig_1D_01"], "hinge_demo"
 TWO_DOF = ["rig_2D_01", "rig_2D_02", "rig_2D_05"], "two_dof_demo"
 # What the image is called, its definitions, recordings, and how they become samples.
 ENGINES = {"hinge, stream": ("hinge_stream", (), HINGES, target.samples_file),
            "hinge, window, N_max 125": ("hinge_window", ("REPLAY_WINDOW",), HINGES, target.samples_file),
            "two-dof, stream": ("two_dof_stream", ("REPLAY_TWO_DOF",), TWO_DOF, target.orientations_file),
            "centre, stream": ("center_stream", ("REPLAY_CENTER",), CENTER, target.samples_file),
-           "chain": ("chain", ("REPLAY_CHAIN",), CHAIN, target.triples_file)}
+           "chain": ("chain", ("REPLAY_CHAIN",), CHAIN, target.triples_file),
+           "one sensor": ("sensor", ("REPLAY_SENSOR",), SENSOR, target.readings_file),
+           "hinge, functional": ("functional", ("REPLAY_FUNCTIONAL",), KNEE, target.samples_file),
+           "hinge of either kind": ("hinge_auto", ("REPLAY_AUTO",), KNEE, target.samples_file)}
 # With the buffers of the program more than 16 KiB.
 NOT_ON = {"hinge, window, N_max 125": ("m0",), "chain": ("m0",)}
 PAGE = target.ROOT / "docs/measurements/same_bits.md"

@@ -214,8 +214,16 @@ static void the_history_has_an_end(void)
 }
 
 /* Every field has a value of its own. */
-static void fill_result(jcal_hinge_result_t *result)
+static void fill_result(jcal_hinge_auto_result_t *all)
 {
+    jcal_hinge_result_t *result = &all->hinge;
+    all->model = JCAL_MODEL_FUNCTIONAL;
+    all->ready_for = JCAL_FOR_FLEXION;
+    all->flexion_uncertainty_rad = 0.03f;
+    all->heading = (jcal_heading_t){1.25f, true};
+    all->has_levers = true;
+    all->joint_to_sensor1_m = (jcal_vec3_t){0.11f, 0.12f, 0.13f};
+    all->joint_to_sensor2_m = (jcal_vec3_t){0.14f, 0.15f, 0.16f};
     result->head.status = JCAL_READY;
     result->head.weak = JCAL_WEAK_SIGN;
     result->head.hint = JCAL_HINT_TILT_AXIS;
@@ -250,14 +258,21 @@ static void an_estimate_comes_back_as_it_was(void)
     TEST_ASSERT_EQUAL_UINT8(out.events, in.events);
     TEST_ASSERT_EQUAL_UINT32(out.token, in.token);
     TEST_ASSERT_TRUE(out.now_us == in.now_us); /* Unity has no 64 bits on targets */
-    TEST_ASSERT_EQUAL_MEMORY(&out.result.axis1, &in.result.axis1, sizeof out.result.axis1);
-    TEST_ASSERT_EQUAL_MEMORY(&out.result.axis2, &in.result.axis2, sizeof out.result.axis2);
-    TEST_ASSERT_EQUAL_INT(out.result.head.status, in.result.head.status);
-    TEST_ASSERT_EQUAL_INT(out.result.head.reason, in.result.head.reason);
-    TEST_ASSERT_EQUAL_FLOAT(out.result.sign_margin, in.result.sign_margin);
-    TEST_ASSERT_EQUAL_FLOAT(out.result.progress_sign, in.result.progress_sign);
-    TEST_ASSERT_TRUE(out.result.head.t_us == in.result.head.t_us); /* Unity has no 64 bits on targets */
-    TEST_ASSERT_EQUAL_UINT32(7, in.result.head.rejected);
+    TEST_ASSERT_EQUAL_MEMORY(&out.result.hinge.axis1, &in.result.hinge.axis1, sizeof out.result.hinge.axis1);
+    TEST_ASSERT_EQUAL_MEMORY(&out.result.hinge.axis2, &in.result.hinge.axis2, sizeof out.result.hinge.axis2);
+    TEST_ASSERT_EQUAL_INT(out.result.hinge.head.status, in.result.hinge.head.status);
+    TEST_ASSERT_EQUAL_INT(out.result.hinge.head.reason, in.result.hinge.head.reason);
+    TEST_ASSERT_EQUAL_FLOAT(out.result.hinge.sign_margin, in.result.hinge.sign_margin);
+    TEST_ASSERT_EQUAL_FLOAT(out.result.hinge.progress_sign, in.result.hinge.progress_sign);
+    TEST_ASSERT_TRUE(out.result.hinge.head.t_us == in.result.hinge.head.t_us); /* Unity has no 64 bits on targets */
+    TEST_ASSERT_EQUAL_UINT32(7, in.result.hinge.head.rejected);
+    TEST_ASSERT_EQUAL_INT(out.result.model, in.result.model);
+    TEST_ASSERT_EQUAL_INT(out.result.ready_for, in.result.ready_for);
+    TEST_ASSERT_EQUAL_FLOAT(out.result.flexion_uncertainty_rad, in.result.flexion_uncertainty_rad);
+    TEST_ASSERT_EQUAL_FLOAT(out.result.heading.heading_rad, in.result.heading.heading_rad);
+    TEST_ASSERT_TRUE(in.result.heading.known && in.result.has_levers);
+    TEST_ASSERT_EQUAL_MEMORY(&out.result.joint_to_sensor1_m, &in.result.joint_to_sensor1_m, sizeof(jcal_vec3_t));
+    TEST_ASSERT_EQUAL_MEMORY(&out.result.joint_to_sensor2_m, &in.result.joint_to_sensor2_m, sizeof(jcal_vec3_t));
     for (size_t size = 0; size < payload.size; size++) { /* shorter is no estimate */
         const frame_t part = {.payload = payload.bytes, .size = size};
         TEST_ASSERT_FALSE(message_read_estimate(&part, &in));

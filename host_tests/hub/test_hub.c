@@ -12,7 +12,7 @@
 #define SAMPLES 600u
 
 static hub_t hub;
-static jcal_hinge_t alone; /* fed with the same samples in the plain way */
+static jcal_hinge_auto_t alone; /* fed with the same samples in the plain way */
 
 /* What has come from the hub. */
 static struct {
@@ -28,8 +28,8 @@ void setUp(void)
 {
     hub_init(&hub);
     memset(&seen, 0, sizeof seen);
-    const jcal_hinge_config_t config = jcal_hinge_config_default();
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_init(&alone, &config));
+    const jcal_hinge_auto_config_t config = jcal_hinge_auto_config_default();
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_auto_init(&alone, &config));
 }
 
 void tearDown(void)
@@ -129,14 +129,20 @@ static void send_sample(uint32_t k)
 static void update_alone(uint32_t k)
 {
     const jcal_pair_t pair = sample(k);
-    (void)jcal_hinge_update(&alone, &pair);
+    (void)jcal_hinge_auto_update(&alone, &pair);
 }
 
 static void same_result(void)
 {
-    jcal_hinge_result_t expected;
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_get(&alone, &expected));
-    const jcal_hinge_result_t *got = &seen.estimate.result;
+    jcal_hinge_auto_result_t all;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_auto_get(&alone, &all));
+    const jcal_hinge_result_t expected = all.hinge;
+    const jcal_hinge_result_t *got = &seen.estimate.result.hinge;
+    TEST_ASSERT_EQUAL_INT(all.model, seen.estimate.result.model);
+    TEST_ASSERT_EQUAL_INT(all.ready_for, seen.estimate.result.ready_for);
+    TEST_ASSERT_EQUAL_MEMORY(&all.flexion_uncertainty_rad, &seen.estimate.result.flexion_uncertainty_rad,
+                             sizeof(float));
+    TEST_ASSERT_EQUAL_MEMORY(&all.joint_to_sensor1_m, &seen.estimate.result.joint_to_sensor1_m, sizeof(jcal_vec3_t));
     TEST_ASSERT_EQUAL_UINT32(expected.head.samples, got->head.samples);
     TEST_ASSERT_EQUAL_UINT32(expected.head.rejected, got->head.rejected);
     TEST_ASSERT_EQUAL_INT(expected.head.status, got->head.status);
@@ -171,7 +177,7 @@ static void play(int eager)
     TEST_ASSERT_EQUAL_UINT32(99, seen.estimate.token);
     TEST_ASSERT_EQUAL_UINT32(99, seen.counters.token);
     same_result();
-    TEST_ASSERT_EQUAL_INT(JCAL_READY, seen.estimate.result.head.status);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, seen.estimate.result.hinge.head.status);
     TEST_ASSERT_EQUAL_UINT32(SAMPLES + 2u, seen.counters.link.received);
     TEST_ASSERT_EQUAL_UINT32(SAMPLES + 2u, seen.counters.link.taken);
     TEST_ASSERT_EQUAL_UINT32(SAMPLES, seen.counters.samples);

@@ -13,8 +13,9 @@ from recordings import COLUMNS
 PROGRAM = str(pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/host/jointcal").resolve())
 REJECT_KEYS = ["not_finite", "out_of_range", "saturated", "frozen", "repeated", "time_order", "gap"]
 KEYS = ["event", "t_s", "status", "engine", "weak", "hint", "reason", "axis1", "axis2", "uncertainty_deg",
-        "sign_margin", "advice", "samples", "rejected", "rejected_by"]
-WINDOW_KEYS = KEYS[:11] + ["paper_accepted"] + KEYS[11:]
+        "sign_margin", "model", "ready_for", "flexion_uncertainty_deg", "heading_offset_deg", "joint_to_sensor1_m",
+        "joint_to_sensor2_m", "uncertainty_m", "lag_s", "advice", "samples", "rejected", "rejected_by"]
+WINDOW_KEYS = KEYS[:19] + ["paper_accepted"] + KEYS[19:]
 CELLS = recordings.texts(recordings.hinge_rows(20))
 FILE = recordings.csv(CELLS)
 SHORT = recordings.csv(CELLS[:50])

@@ -77,7 +77,9 @@ class Clean(Words):
     def test_nothing_is_said_of_real_recordings(self):
         for path in sorted(pathlib.Path(DATA).glob("*.csv")):
             lines = self.parse(self.run_program("hinge", str(path), "--json", "--every", "5").stdout)
-            self.assertEqual({str(line["advice"]) for line in lines}, {"[]"}, path.name)
+            said = {sentence for line in lines for sentence in line["advice"]}
+            tie = {sentence for sentence in said if "hangs on a tie" in sentence}  # true of where the sensors sit
+            self.assertEqual(said - tie, set(), path.name)
 
 
 class Times(Words):

@@ -17,7 +17,7 @@ class Vectors(unittest.TestCase):
             payload = bytes.fromhex(payload.strip("-"))
             wire = bytes.fromhex(wire)
             self.assertEqual(hub.encode(int(kind, 16), int(number, 16), payload), wire)
-            self.assertEqual(hub.decode(wire[:-1]), hub.Frame(1, int(kind, 16), int(number, 16), payload))
+            self.assertEqual(hub.decode(wire[:-1]), hub.Frame(hub.VERSION, int(kind, 16), int(number, 16), payload))
 
     def test_crc(self):
         self.assertEqual(zlib.crc32(b"123456789"), 0xCBF43926)

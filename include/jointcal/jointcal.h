@@ -7,10 +7,13 @@
 /// | you want | header | settings |
 /// |---|---|---|
 /// | the axis of a hinge | hinge.h; hinge_window.h is the published algorithm | hinge_config.h |
+/// | a hinge on a rig or on a person, and its angle | hinge_auto.h | hinge_config.h |
+/// | a person's joint, with sensors that serve several | functional.h, sensor.h; functional_pair.h for one joint | functional_config.h |
 /// | two axes and the heading offset | two_dof.h; two_dof_window.h is the published algorithm | two_dof_config.h |
 /// | the joint's centre | center.h; center_window.h is the published algorithm | center_config.h, kinematics.h |
 /// | hip and knee together | chain.h | chain_config.h |
 /// | joint angles from orientations | joint_angles.h, joint_heading.h | |
+/// | one sensor's orientation and features, once for all its joints | sensor.h, tick.h | |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
 ///
 /// What stands in private/ is state whose size must be known at compile time; nothing there is for the user to touch.
@@ -26,15 +29,20 @@
 #include "jointcal/center_window.h"
 #include "jointcal/chain.h"
 #include "jointcal/config.h"
+#include "jointcal/functional.h"
+#include "jointcal/functional_pair.h"
 #include "jointcal/gate.h"
 #include "jointcal/head.h"
 #include "jointcal/hinge.h"
+#include "jointcal/hinge_auto.h"
 #include "jointcal/hinge_window.h"
 #include "jointcal/joint_angles.h"
 #include "jointcal/joint_heading.h"
 #include "jointcal/orientation.h"
 #include "jointcal/quat.h"
+#include "jointcal/sensor.h"
 #include "jointcal/status.h"
+#include "jointcal/tick.h"
 #include "jointcal/two_dof.h"
 #include "jointcal/two_dof_window.h"
 #include "jointcal/types.h"

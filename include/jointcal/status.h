@@ -18,6 +18,7 @@ typedef enum {
     JCAL_OK = 0,            ///< Done.
     JCAL_REJECTED = 1,      ///< push: the sample was understood and not used; head.rejected_by counts why.
     JCAL_IDLE = 2,          ///< step: no sample was waiting.
+    JCAL_TICK = 3,          ///< push of a sensor: done, and there are new features.
     JCAL_ERR_ARG = -1,      ///< A pointer is null or an argument is outside its documented range.
     JCAL_ERR_CONFIG = -2,   ///< A field of the config is not finite or outside its documented range.
     JCAL_ERR_STORAGE = -3,  ///< The storage handed over is too small or not aligned.
@@ -58,7 +59,8 @@ typedef enum {
     JCAL_HINT_TILT_AXIS = 4,      ///< Tilt the joint axis out of the horizontal, so that gravity shows its sense.
     /// More of the same motion will not help: units, range, mounting or pairing are wrong.
     JCAL_HINT_CHECK_SENSORS = 5,
-    JCAL_HINT_MORE_DIRECTIONS = 6  ///< Turn both segments about other axes too: so far a direction is left open.
+    JCAL_HINT_MORE_DIRECTIONS = 6,  ///< Turn both segments about other axes too: so far a direction is left open.
+    JCAL_HINT_MOVE_FASTER = 7       ///< Move faster, so that the joint itself is accelerated.
 } jcal_hint_t;
 
 /// Why the status is not `ready`.
@@ -74,7 +76,12 @@ typedef enum {
     JCAL_REASON_BAD_SAMPLES = 7,  ///< Too many samples are rejected (saturated, frozen, repeated ...).
     JCAL_REASON_WRONG_UNITS_GYR = 8,  ///< Angular rates look like deg/s.
     JCAL_REASON_WRONG_UNITS_ACC = 9,  ///< Accelerations look like g.
-    JCAL_REASON_RATE_TOO_LOW = 10     ///< Fewer than 10 samples a second.
+    JCAL_REASON_RATE_TOO_LOW = 10,    ///< Fewer than 10 samples a second.
+    JCAL_REASON_GRAVITY_OFF = 11,     ///< A sensor's specific force is not near 9.81 m/s^2 in the median.
+    /// The two accelerations do not belong to one joint: other pair, not the same time, or frames of gyroscope and accelerometer differ.
+    JCAL_REASON_NOT_ONE_JOINT = 12,
+    JCAL_REASON_NO_BEND = 13,   ///< The segments move, but the joint between them hardly bends.
+    JCAL_REASON_MORE_AXES = 14  ///< The joint turns about more than one axis.
 } jcal_reason_t;
 
 /// Short English text for a call result; never null. Threads: no state.

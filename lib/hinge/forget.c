@@ -8,13 +8,9 @@
 #include "math/scalar.h"
 #include "math/sym.h"
 
-#include <float.h>
-
 #define TILTS JCAL_HINGE_TILTS
 #define UNKNOWNS JCAL_HINGE_UNKNOWNS
 
-/// A diagonal of which only this share is left after an elimination is rounding: 8 unknowns, a few operations each.
-#define ROUNDING (64.0f * FLT_EPSILON)
 /// Nothing at all is known below this: its reciprocal is finite.
 #define PIVOT_MIN 1e-20f
 
@@ -56,12 +52,11 @@ void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share)
 /// Eliminates a share 1 - keep of unknown p from matrix and gradient; keep = 0 leaves the information about the others alone.
 ///
 /// What is left of row p is `keep` of it, exactly: as a difference it would be rounding, and the next time that this is given up,
-/// rounding over rounding would be taken off the others. So it is with a pivot of no more than `least`: nothing is known of p that the
-/// others could owe to it.
-static void eliminate(jcal_hinge_refine_t *self, unsigned p, float keep, float least)
+/// rounding over rounding would be taken off the others.
+static void eliminate(jcal_hinge_refine_t *self, unsigned p, float keep)
 {
     const float pivot = self->matrix[jcal_sym_at(p, p)];
-    const float give = (pivot > jcal_max(least, PIVOT_MIN)) ? ((1.0f - keep) / pivot) : 0.0f;
+    const float give = (pivot > PIVOT_MIN) ? ((1.0f - keep) / pivot) : 0.0f;
     float column[UNKNOWNS];
     for (unsigned i = 0u; i < UNKNOWNS; ++i) {
         column[i] = self->matrix[jcal_sym_at(i, p)];
@@ -85,8 +80,6 @@ static void eliminate(jcal_hinge_refine_t *self, unsigned p, float keep, float l
 void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, float keep)
 {
     const unsigned first = 2u * axis;
-    const float least[2] = {ROUNDING * self->matrix[jcal_sym_at(first, first)],
-                            ROUNDING * self->matrix[jcal_sym_at(first + 1u, first + 1u)]};
     for (unsigned i = 0u; i < TILTS; ++i) {
         for (unsigned k = 0u; k <= i; ++k) {
             const bool touches = ((i / 2u) == axis) || ((k / 2u) == axis);
@@ -94,7 +87,7 @@ void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, flo
         }
     }
     for (unsigned i = first; i < (first + 2u); ++i) {
-        eliminate(self, i, keep, least[i - first]);
+        eliminate(self, i, keep);
         self->lean[i] *= keep;
     }
     self->along[axis] *= keep;

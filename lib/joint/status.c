@@ -27,6 +27,8 @@ const char *jcal_status_string(jcal_status_t status)
         return "sample rejected";
     case JCAL_IDLE:
         return "nothing to do";
+    case JCAL_TICK:
+        return "new features";
     case JCAL_ERR_ARG:
         return "invalid argument";
     case JCAL_ERR_CONFIG:
@@ -60,15 +62,27 @@ const char *jcal_weak_string(jcal_weak_t weak)
 
 const char *jcal_hint_string(jcal_hint_t hint)
 {
-    static const char *const words[] = {NULL,        "move_joint",    "move_segment1",  "move_segment2",
-                                        "tilt_axis", "check_sensors", "more_directions"};
+    static const char *const words[] = {NULL,        "move_joint",    "move_segment1",   "move_segment2",
+                                        "tilt_axis", "check_sensors", "more_directions", "move_faster"};
     return word(words, COUNT(words), (int)hint, NULL);
 }
 
 const char *jcal_reason_string(jcal_reason_t reason)
 {
-    static const char *const words[] = {
-        NULL,           "no_data",     "no_motion",       "uncertain",       "sign_open",   "other_minimum",
-        "does_not_fit", "bad_samples", "wrong_units_gyr", "wrong_units_acc", "rate_too_low"};
+    static const char *const words[] = {NULL,
+                                        "no_data",
+                                        "no_motion",
+                                        "uncertain",
+                                        "sign_open",
+                                        "other_minimum",
+                                        "does_not_fit",
+                                        "bad_samples",
+                                        "wrong_units_gyr",
+                                        "wrong_units_acc",
+                                        "rate_too_low",
+                                        "gravity_off",
+                                        "not_one_joint",
+                                        "no_bend",
+                                        "more_axes"};
     return word(words, COUNT(words), (int)reason, NULL);
 }

@@ -59,13 +59,13 @@ static jcal_reject_t check_values(jcal_gate_t *self, const jcal_gate_config_t *c
 {
     if (!self->turn.has_first) {
         self->turn.has_first = true;
-        const jcal_reject_t first = jcal_sensor_begin(&self->sensor1, cfg, &pair->imu1);
-        const jcal_reject_t second = jcal_sensor_begin(&self->sensor2, cfg, &pair->imu2);
+        const jcal_reject_t first = jcal_gate_sensor_begin(&self->sensor1, cfg, &pair->imu1);
+        const jcal_reject_t second = jcal_gate_sensor_begin(&self->sensor2, cfg, &pair->imu2);
         return (first < second) ? first : second;
     }
-    jcal_sensor_follow_turn(&self->turn, &self->sensor1, &self->sensor2, pair, dt_s);
-    const jcal_reject_t first = jcal_sensor_check(&self->sensor1, cfg, &pair->imu1, dt_s);
-    const jcal_reject_t second = jcal_sensor_check(&self->sensor2, cfg, &pair->imu2, dt_s);
+    jcal_gate_sensor_follow_turn(&self->turn, &self->sensor1, &self->sensor2, pair, dt_s);
+    const jcal_reject_t first = jcal_gate_sensor_check(&self->sensor1, cfg, &pair->imu1, dt_s);
+    const jcal_reject_t second = jcal_gate_sensor_check(&self->sensor2, cfg, &pair->imu2, dt_s);
     const jcal_reject_t cause = (first < second) ? first : second;
     const float bad = ((cause == JCAL_REJECT_OUT_OF_RANGE) || (cause == JCAL_REJECT_FROZEN)) ? 1.0f : 0.0f;
     const float saturated = (cause == JCAL_REJECT_SATURATED) ? 1.0f : 0.0f;
@@ -78,8 +78,8 @@ static jcal_reject_t check_values(jcal_gate_t *self, const jcal_gate_config_t *c
 static void fade(jcal_gate_t *self, uint64_t before_us)
 {
     if ((self->clock.last_us >> 20) != (before_us >> 20)) {
-        jcal_sensor_fade(&self->sensor1);
-        jcal_sensor_fade(&self->sensor2);
+        jcal_gate_sensor_fade(&self->sensor1);
+        jcal_gate_sensor_fade(&self->sensor2);
     }
 }
 
@@ -94,8 +94,8 @@ static jcal_reject_t check_finite(jcal_gate_t *self, const jcal_gate_config_t *c
         return cause;
     }
     if (cause == JCAL_REJECT_GAP) {
-        jcal_sensor_start(&self->sensor1, &pair->imu1);
-        jcal_sensor_start(&self->sensor2, &pair->imu2);
+        jcal_gate_sensor_start(&self->sensor1, &pair->imu1);
+        jcal_gate_sensor_start(&self->sensor2, &pair->imu2);
         self->turn.sensor = 0u;
     }
     const float share = (dt_s > 0.0f) ? share_of(dt_s, BAD_TIME_S) : BAD_STEP; /* no believable time may have passed */
@@ -110,7 +110,7 @@ jcal_reject_t jcal_gate_check(jcal_gate_t *self, const jcal_gate_config_t *confi
     }
     jcal_reject_t cause = JCAL_REJECT_NOT_FINITE;
     self->samples += 1u;
-    if (jcal_sensor_is_finite(&pair->imu1) && jcal_sensor_is_finite(&pair->imu2)) {
+    if (jcal_gate_sensor_is_finite(&pair->imu1) && jcal_gate_sensor_is_finite(&pair->imu2)) {
         cause = check_finite(self, config, pair);
     } else {
         self->bad_share += BAD_STEP * (1.0f - self->bad_share);
@@ -139,10 +139,10 @@ jcal_reason_t jcal_gate_complaint(const jcal_gate_t *self)
     if (!self->turn.has_first) {
         return (self->bad_share > BAD_SHARE_MAX) ? JCAL_REASON_BAD_SAMPLES : JCAL_REASON_NONE;
     }
-    if (jcal_sensor_acc_looks_wrong(&self->sensor1) || jcal_sensor_acc_looks_wrong(&self->sensor2)) {
+    if (jcal_gate_sensor_acc_looks_wrong(&self->sensor1) || jcal_gate_sensor_acc_looks_wrong(&self->sensor2)) {
         return JCAL_REASON_WRONG_UNITS_ACC;
     }
-    if (jcal_sensor_gyr_looks_wrong(&self->sensor1) || jcal_sensor_gyr_looks_wrong(&self->sensor2)) {
+    if (jcal_gate_sensor_gyr_looks_wrong(&self->sensor1) || jcal_gate_sensor_gyr_looks_wrong(&self->sensor2)) {
         return JCAL_REASON_WRONG_UNITS_GYR;
     }
     const bool bad = (self->bad_share > BAD_SHARE_MAX) || (self->saturated_share > SATURATED_SHARE_MAX);

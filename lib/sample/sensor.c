@@ -62,7 +62,7 @@ static inline uint32_t carry_of(float value)
     return (bits & 0x7FFFFFFFu) + 0x00800000u;
 }
 
-bool jcal_sensor_is_finite(const jcal_imu_t *imu)
+bool jcal_gate_sensor_is_finite(const jcal_imu_t *imu)
 {
     const jcal_vec3_t *const w = &imu->gyr_rad_s;
     const jcal_vec3_t *const a = &imu->acc_m_s2;
@@ -196,7 +196,7 @@ static inline void remember(jcal_gate_sensor_t *self, const jcal_gate_config_t *
     remember_one(self, 5u, now[5], acc_per);
 }
 
-void jcal_sensor_fade(jcal_gate_sensor_t *self)
+void jcal_gate_sensor_fade(jcal_gate_sensor_t *self)
 {
     for (unsigned i = 0u; i < 6u; ++i) {
         self->extreme[i] = (uint16_t)(self->extreme[i] - (self->extreme[i] >> EXTREME_FADE));
@@ -284,18 +284,18 @@ static bool has_dead(const jcal_gate_sensor_t *self, unsigned kind, float limit,
     return (total != 0u) && ((float)total > (DEAD_UNITS * ((self->suspicion[kind] == ALL_STAND) ? frozen_s : limit)));
 }
 
-bool jcal_sensor_acc_looks_wrong(const jcal_gate_sensor_t *self)
+bool jcal_gate_sensor_acc_looks_wrong(const jcal_gate_sensor_t *self)
 {
     return !jcal_within(self->gravity_m_s2, GRAVITY_MIN_M_S2, GRAVITY_MAX_M_S2);
 }
 
-bool jcal_sensor_gyr_looks_wrong(const jcal_gate_sensor_t *self)
+bool jcal_gate_sensor_gyr_looks_wrong(const jcal_gate_sensor_t *self)
 {
     return (self->turns > TURNS_MIN) && (self->turned < (TURN_SHARE_MIN * self->turns));
 }
 
-void jcal_sensor_follow_turn(jcal_gate_turn_t *turn, jcal_gate_sensor_t *sensor1, jcal_gate_sensor_t *sensor2,
-                             const jcal_pair_t *pair, float dt_s)
+void jcal_gate_sensor_follow_turn(jcal_gate_turn_t *turn, jcal_gate_sensor_t *sensor1, jcal_gate_sensor_t *sensor2,
+                                  const jcal_pair_t *pair, float dt_s)
 {
     const jcal_imu_t *const imu = (turn->sensor == 2u) ? &pair->imu2 : &pair->imu1;
     jcal_gate_sensor_t *const sensor = (turn->sensor == 2u) ? sensor2 : sensor1;
@@ -321,17 +321,17 @@ void jcal_sensor_follow_turn(jcal_gate_turn_t *turn, jcal_gate_sensor_t *sensor1
     }
 }
 
-void jcal_sensor_start(jcal_gate_sensor_t *self, const jcal_imu_t *imu)
+void jcal_gate_sensor_start(jcal_gate_sensor_t *self, const jcal_imu_t *imu)
 {
     unpack(imu, self->last);
     self->gravity_m_s2 = jcal_vec3_norm(imu->acc_m_s2);
     self->repeated = 0u;
 }
 
-jcal_reject_t jcal_sensor_begin(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const jcal_imu_t *imu)
+jcal_reject_t jcal_gate_sensor_begin(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const jcal_imu_t *imu)
 {
-    jcal_sensor_start(self, imu);
-    const bool wrong = jcal_sensor_acc_looks_wrong(self) || exceeds(&self->last[0], cfg->gyr_max_rad_s) ||
+    jcal_gate_sensor_start(self, imu);
+    const bool wrong = jcal_gate_sensor_acc_looks_wrong(self) || exceeds(&self->last[0], cfg->gyr_max_rad_s) ||
                        exceeds(&self->last[3], cfg->acc_max_m_s2);
     return wrong ? JCAL_REJECT_OUT_OF_RANGE : JCAL_REJECT_NONE;
 }
@@ -375,8 +375,8 @@ static uint16_t stood_for(const jcal_gate_sensor_t *self, float dt_s)
     return (uint16_t)jcal_min((float)self->repeated + (REPEATED_UNITS * dt_s) + 0.5f, (float)UINT16_MAX);
 }
 
-jcal_reject_t jcal_sensor_check(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const jcal_imu_t *imu,
-                                float dt_s)
+jcal_reject_t jcal_gate_sensor_check(jcal_gate_sensor_t *self, const jcal_gate_config_t *cfg, const jcal_imu_t *imu,
+                                     float dt_s)
 {
     float now[6];
     unpack(imu, now);
@@ -393,6 +393,6 @@ jcal_reject_t jcal_sensor_check(jcal_gate_sensor_t *self, const jcal_gate_config
         return JCAL_REJECT_OUT_OF_RANGE;
     }
     remember(self, cfg, now);
-    const bool wrong = jcal_sensor_acc_looks_wrong(self) || jcal_sensor_gyr_looks_wrong(self);
+    const bool wrong = jcal_gate_sensor_acc_looks_wrong(self) || jcal_gate_sensor_gyr_looks_wrong(self);
     return wrong ? JCAL_REJECT_OUT_OF_RANGE : cause;
 }

@@ -1,18 +1,23 @@
 /* SPDX-License-Identifier: MIT */
 /* Replays samples through an engine and prints a hash of every result, on the host and on a target.
  *
- * Reads `samples.bin` (records laid out like jcal_pair_t, jcal_orientation_pair_t or jcal_triple_t, little endian) from the working directory; on a target that is
- * a file of the host, by semihosting. Equal hashes mean equal bits of every field of every result. The functions
+ * Reads `samples.bin` (records laid out like jcal_pair_t, jcal_orientation_pair_t, jcal_triple_t or jcal_reading_t, little endian) from
+ * the working directory; on a target that is a file of the host, by semihosting. Equal hashes mean equal bits of every field of every result. The functions
  * replay_mark_* tell tools/budget.py's instruction counter where a call begins and ends.
  *
  * Compile definitions: REPLAY_TWO_DOF, REPLAY_CENTER, REPLAY_CHAIN (stream engine of the 2-DoF joint, of the joint centre, of
- * hip and knee; otherwise that of the hinge), REPLAY_WINDOW (window engine of the hinge, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
+ * hip and knee; otherwise that of the hinge), REPLAY_SENSOR (the stage of one sensor), REPLAY_FUNCTIONAL (the functional hinge: a push is
+ * jcal_functional_add at a tick, a step one jcal_functional_step, an update both; the stages of its sensors are not counted),
+ * REPLAY_SHOW_SLICES (a line before each step of it: which slice), REPLAY_AUTO (a hinge of either kind), REPLAY_WINDOW (window engine of the hinge, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
  * the stack before every call and print how deep the deepest one went). */
 #include "jointcal/center.h"
 #include "jointcal/chain.h"
+#include "jointcal/functional.h"
 #include "jointcal/hinge.h"
+#include "jointcal/hinge_auto.h"
 #include "jointcal/hinge_window.h"
+#include "jointcal/sensor.h"
 #include "jointcal/two_dof.h"
 
 #include <math.h>
@@ -25,6 +30,7 @@ enum { CHUNK = 64, N_MAX = 125, PAINT_WORDS = 1024 };
 
 typedef char pair_has_no_padding[(sizeof(jcal_pair_t) == 56) ? 1 : -1];
 typedef char triple_has_no_padding[(sizeof(jcal_triple_t) == 80) ? 1 : -1];
+typedef char reading_has_no_padding[(sizeof(jcal_reading_t) == 32) ? 1 : -1];
 typedef char orientations_have_no_padding[(sizeof(jcal_orientation_pair_t) == 40) ? 1 : -1];
 
 #ifdef REPLAY_TWO_DOF
@@ -81,6 +87,58 @@ static jcal_status_t engine_init(void)
 {
     const jcal_chain_config_t config = jcal_chain_config_default();
     return jcal_chain_init(&replayed, &config);
+}
+#elif defined(REPLAY_SENSOR)
+typedef jcal_reading_t sample_t;
+typedef struct {
+    jcal_quat_t orientation;
+    jcal_vec3_t bias;
+    jcal_tick_t tick;
+} result_t;
+static jcal_sensor_t replayed;
+#define engine_update jcal_sensor_push
+
+static jcal_status_t engine_init(void)
+{
+    return jcal_sensor_init(&replayed);
+}
+
+static jcal_status_t engine_get(const jcal_sensor_t *self, result_t *out)
+{
+    const jcal_tick_t *const tick = jcal_sensor_tick(self);
+    memset(out, 0, sizeof(*out));
+    out->orientation = jcal_sensor_orientation(self);
+    out->bias = jcal_sensor_gyr_bias(self);
+    if (tick != NULL) {
+        out->tick = *tick;
+    }
+    return JCAL_OK;
+}
+#elif defined(REPLAY_FUNCTIONAL)
+typedef jcal_pair_t sample_t;
+typedef jcal_functional_result_t result_t;
+static jcal_functional_t replayed;
+static jcal_sensor_t sensors[2];
+static uint64_t last_us;
+#define engine_get jcal_functional_get
+
+static jcal_status_t engine_init(void)
+{
+    const jcal_functional_config_t config = jcal_functional_config_default();
+    const bool ready = (jcal_sensor_init(&sensors[0]) == JCAL_OK) && (jcal_sensor_init(&sensors[1]) == JCAL_OK);
+    return ready ? jcal_functional_init(&replayed, &config) : JCAL_ERR_ARG;
+}
+#elif defined(REPLAY_AUTO)
+typedef jcal_pair_t sample_t;
+typedef jcal_hinge_auto_result_t result_t;
+static jcal_hinge_auto_t replayed;
+#define engine_update jcal_hinge_auto_update
+#define engine_get jcal_hinge_auto_get
+
+static jcal_status_t engine_init(void)
+{
+    const jcal_hinge_auto_config_t config = jcal_hinge_auto_config_default();
+    return jcal_hinge_auto_init(&replayed, &config);
 }
 #else
 typedef jcal_pair_t sample_t;
@@ -162,6 +220,51 @@ __attribute__((noinline)) void replay_mark_end(void)
     replay_place = 0;
 }
 
+#ifdef REPLAY_FUNCTIONAL
+/* As jcal_functional_pair_update, with the marks of the parts that are asked for. */
+static void mark_part(void (*mark)(void))
+{
+#ifdef REPLAY_SPLIT
+    mark();
+#else
+    (void)mark;
+#endif
+}
+
+static void step_all(uint64_t t_us)
+{
+    const unsigned most = 1u + (unsigned)(90u * (uint32_t)(t_us - last_us) / 1000000u);
+    jcal_status_t status = JCAL_OK;
+    for (unsigned k = 0; (k < most) && (status == JCAL_OK); ++k) {
+#ifdef REPLAY_SHOW_SLICES
+        printf("slice %u\n", (unsigned)replayed.slice);
+#endif
+        mark_part(replay_mark_step);
+        status = jcal_functional_step(&replayed);
+        mark_part(replay_mark_end);
+    }
+}
+
+static __attribute__((noinline)) void call_engine(const sample_t *pair)
+{
+    const jcal_reading_t readings[2] = {{pair->t_us, pair->imu1}, {pair->t_us, pair->imu2}};
+    const jcal_status_t of1 = jcal_sensor_push(&sensors[0], &readings[0]);
+    const jcal_status_t of2 = jcal_sensor_push(&sensors[1], &readings[1]);
+#ifndef REPLAY_SPLIT
+    replay_mark_update();
+#endif
+    if ((of1 == JCAL_TICK) && (of2 == JCAL_TICK)) {
+        mark_part(replay_mark_push);
+        (void)jcal_functional_add(&replayed, jcal_sensor_tick(&sensors[0]), jcal_sensor_tick(&sensors[1]));
+        mark_part(replay_mark_end);
+    }
+    step_all(pair->t_us);
+    last_us = pair->t_us;
+#ifndef REPLAY_SPLIT
+    replay_mark_end();
+#endif
+}
+#else
 static __attribute__((noinline)) void call_engine(const sample_t *pair)
 {
 #ifdef REPLAY_SPLIT
@@ -177,6 +280,7 @@ static __attribute__((noinline)) void call_engine(const sample_t *pair)
     replay_mark_end();
 #endif
 }
+#endif
 
 #ifdef REPLAY_STACK
 /* The words below this function's frame; nothing else uses them between the two calls, and no interrupt is on. */
@@ -222,6 +326,29 @@ static uint64_t hash_f32(uint64_t hash, float value)
     return hash_u64(hash, bits, 4);
 }
 
+#ifdef REPLAY_SENSOR
+static uint64_t hash_array(uint64_t hash, const float *values, size_t count)
+{
+    for (size_t k = 0; k < count; ++k) {
+        hash = hash_f32(hash, values[k]);
+    }
+    return hash;
+}
+
+static uint64_t hash_result(uint64_t hash, const result_t *r)
+{
+    const jcal_tick_t *const tick = &r->tick;
+    const float floats[] = {r->orientation.w, r->orientation.x, r->orientation.y, r->orientation.z,
+                            r->bias.x,        r->bias.y,        r->bias.z,        tick->velocity.x,
+                            tick->velocity.y, tick->velocity.z, tick->gyr.x,      tick->gyr.y,
+                            tick->gyr.z,      tick->dt_s,       tick->since_s,    tick->acc_level_m_s2};
+    hash = hash_array(hash, floats, sizeof(floats) / sizeof(floats[0]));
+    hash = hash_array(hash, tick->turn, 9);
+    hash = hash_array(hash, tick->rate, 9);
+    hash = hash_array(hash, tick->lever, 9);
+    return hash_u64(hash_u64(hash, tick->epoch, 4), tick->t_us, 8);
+}
+#else
 #ifdef REPLAY_TWO_DOF
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {
@@ -264,6 +391,62 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
     const float floats[] = {r->uncertainty_m[0],       r->uncertainty_m[1],      r->uncertainty_m[2],
                             r->uncertainty_m[3],       r->segment_length_m,      r->uncertainty_segment_m,
                             (float)r->joint_status[0], (float)r->joint_status[1]};
+#elif defined(REPLAY_FUNCTIONAL)
+static uint64_t hash_floats(uint64_t hash, const result_t *r)
+{
+    hash = hash_u64(hash, (r->for_axes ? 1u : 0u) + (r->for_flexion ? 2u : 0u) + (r->heading.known ? 4u : 0u), 4);
+    const float flexion =
+        jcal_functional_flexion(&replayed, jcal_sensor_orientation(&sensors[0]), jcal_sensor_orientation(&sensors[1]));
+    const float floats[] = {r->axis1.x,
+                            r->axis1.y,
+                            r->axis1.z,
+                            r->axis2.x,
+                            r->axis2.y,
+                            r->axis2.z,
+                            r->uncertainty1_rad,
+                            r->uncertainty2_rad,
+                            r->flexion_uncertainty_rad,
+                            r->rate_share,
+                            r->bend_rad,
+                            r->sign_margin,
+                            r->heading.heading_rad,
+                            r->joint_to_sensor1_m.x,
+                            r->joint_to_sensor1_m.y,
+                            r->joint_to_sensor1_m.z,
+                            r->joint_to_sensor2_m.x,
+                            r->joint_to_sensor2_m.y,
+                            r->joint_to_sensor2_m.z,
+                            r->progress_axis1,
+                            r->progress_axis2,
+                            r->progress_sign,
+                            flexion};
+#elif defined(REPLAY_AUTO)
+static uint64_t hash_floats(uint64_t hash, const result_t *r)
+{
+    hash = hash_u64(hash, (uint32_t)r->model + (8u * (uint32_t)r->ready_for), 4);
+    const jcal_hinge_result_t *const h = &r->hinge;
+    const float floats[] = {h->axis1.x,
+                            h->axis1.y,
+                            h->axis1.z,
+                            h->axis2.x,
+                            h->axis2.y,
+                            h->axis2.z,
+                            h->uncertainty1_rad,
+                            h->uncertainty2_rad,
+                            h->sign_margin,
+                            h->progress_axis1,
+                            h->progress_axis2,
+                            h->progress_sign,
+                            r->flexion_uncertainty_rad,
+                            r->bend_rad,
+                            r->heading.heading_rad,
+                            r->joint_to_sensor1_m.x,
+                            r->joint_to_sensor1_m.y,
+                            r->joint_to_sensor1_m.z,
+                            r->joint_to_sensor2_m.x,
+                            r->joint_to_sensor2_m.y,
+                            r->joint_to_sensor2_m.z,
+                            jcal_hinge_auto_flexion(&replayed)};
 #else
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {
@@ -278,6 +461,10 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
     return hash;
 }
 
+#ifdef REPLAY_AUTO
+#define head hinge.head
+#define has_axes hinge.has_axes
+#endif
 static uint64_t hash_result(uint64_t hash, const result_t *r)
 {
     const jcal_head_t *const h = &r->head;
@@ -292,6 +479,18 @@ static uint64_t hash_result(uint64_t hash, const result_t *r)
     }
     return hash_u64(hash, h->t_us, 8);
 }
+#endif
+
+/* False where there is no status. */
+static bool is_ready(const result_t *r)
+{
+#ifdef REPLAY_SENSOR
+    (void)r;
+    return false;
+#else
+    return r->head.status == JCAL_READY;
+#endif
+}
 
 int main(void)
 {
@@ -303,6 +502,8 @@ int main(void)
     uint64_t hash = UINT64_C(0xCBF29CE484222325);
     uint32_t samples = 0;
     uint32_t stack = 0;
+    uint32_t before_ready = 0;
+    bool was_ready = false;
     result_t result;
     for (size_t count = fread(chunk, sizeof(chunk[0]), CHUNK, file); count > 0;
          count = fread(chunk, sizeof(chunk[0]), CHUNK, file)) {
@@ -312,10 +513,13 @@ int main(void)
             (void)engine_get(&replayed, &result);
             hash = hash_result(hash, &result);
             ++samples;
+            was_ready = was_ready || is_ready(&result);
+            before_ready += was_ready ? 0u : 1u;
         }
     }
     (void)fclose(file);
-    printf("samples %lu hash %08lx%08lx state %lu stack %lu\n", (unsigned long)samples, (unsigned long)(hash >> 32),
-           (unsigned long)(hash & 0xFFFFFFFFu), (unsigned long)sizeof(replayed), (unsigned long)stack);
+    printf("samples %lu hash %08lx%08lx state %lu stack %lu before_ready %lu\n", (unsigned long)samples,
+           (unsigned long)(hash >> 32), (unsigned long)(hash & 0xFFFFFFFFu), (unsigned long)sizeof(replayed),
+           (unsigned long)stack, (unsigned long)before_ready);
     return (samples > 0) ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -46,8 +46,7 @@ static void push(hub_t *self, const jcal_pair_t *pair)
         known.imu1.gyr_rad_s.x = NAN;
     }
     self->pair_us = known.t_us;
-    /* A rejected sample is counted by the library and leaves nothing to step. */
-    self->accepted = jcal_hinge_push(&self->hinge, &known) == JCAL_OK;
+    self->accepted = jcal_hinge_auto_push(&self->hinge, &known) == JCAL_OK;
 }
 
 static void receive_sample(hub_t *self, const hub_item_t *item)
@@ -135,7 +134,7 @@ static void answer_estimate(hub_t *self, uint8_t events, uint32_t token)
     message_estimate_t estimate = {
         .events = events, .token = token, .now_us = self->has_time ? self->latest_us : MESSAGE_TIME_UNKNOWN};
     frame_writer_t payload;
-    (void)jcal_hinge_get(&self->hinge, &estimate.result);
+    (void)jcal_hinge_auto_get(&self->hinge, &estimate.result);
     message_write_estimate(&payload, &estimate);
     answer(self, FRAME_ESTIMATE, &payload);
 }
@@ -143,14 +142,15 @@ static void answer_estimate(hub_t *self, uint8_t events, uint32_t token)
 /* Whoever wants numbers that belong together asks when nothing else is on its way. */
 static void answer_counters(hub_t *self, uint32_t token)
 {
-    jcal_hinge_result_t result;
-    (void)jcal_hinge_get(&self->hinge, &result);
+    jcal_hinge_auto_result_t all;
+    (void)jcal_hinge_auto_get(&self->hinge, &all);
+    const jcal_head_t *head = &all.hinge.head;
     message_counters_t counters = {.token = token,
                                    .link = self->link.counts,
                                    .unknown = self->unknown,
                                    .overrun = self->overrun,
-                                   .samples = result.head.samples};
-    memcpy(counters.rejected_by, result.head.rejected_by, sizeof counters.rejected_by);
+                                   .samples = head->samples};
+    memcpy(counters.rejected_by, head->rejected_by, sizeof counters.rejected_by);
     frame_writer_t payload;
     message_write_counters(&payload, &counters);
     answer(self, FRAME_COUNTERS, &payload);
@@ -171,11 +171,11 @@ static void give_credit(hub_t *self, uint32_t sequence)
 
 static void begin(hub_t *self, const hub_item_t *item)
 {
-    jcal_hinge_config_t config = jcal_hinge_config_default();
+    jcal_hinge_auto_config_t config = jcal_hinge_auto_config_default();
     self->config = item->as.start;
-    config.max_bound_rad = self->config.max_bound_rad;
-    config.sign_hint = (jcal_sign_hint_t)self->config.sign_hint;
-    self->running = jcal_hinge_init(&self->hinge, &config) == JCAL_OK;
+    config.hinge.max_bound_rad = self->config.max_bound_rad;
+    config.hinge.sign_hint = (jcal_sign_hint_t)self->config.sign_hint;
+    self->running = jcal_hinge_auto_init(&self->hinge, &config) == JCAL_OK;
     self->has_time = false;
     self->pair_us = 0;
     self->status = JCAL_COLLECTING;
@@ -212,19 +212,20 @@ static bool estimate_due(hub_t *self, uint64_t t_us)
 /* The pushed sample is worked off; reports what it changed. */
 static void step(hub_t *self, uint64_t t_us)
 {
-    jcal_hinge_result_t result;
+    jcal_hinge_auto_result_t result;
     if (self->accepted) {
-        (void)jcal_hinge_step(&self->hinge);
+        (void)jcal_hinge_auto_step(&self->hinge);
     }
-    (void)jcal_hinge_get(&self->hinge, &result);
+    (void)jcal_hinge_auto_get(&self->hinge, &result);
+    const jcal_calibration_t status = result.hinge.head.status;
     uint8_t events = 0;
-    if (result.head.status != self->status && result.head.status == JCAL_READY) {
+    if (status != self->status && status == JCAL_READY) {
         events |= MESSAGE_EVENT_READY;
     }
-    if (result.head.status != self->status && result.head.status == JCAL_MOVED) {
+    if (status != self->status && status == JCAL_MOVED) {
         events |= MESSAGE_EVENT_MOVED;
     }
-    self->status = result.head.status;
+    self->status = status;
     const bool due = estimate_due(self, t_us);
     if (due) {
         events |= MESSAGE_EVENT_DUE;

@@ -51,7 +51,7 @@ typedef struct {
     /* Written by the main loop. */
     volatile uint32_t taken;
     volatile bool busy;  ///< The estimator is being worked on.
-    jcal_hinge_t hinge;
+    jcal_hinge_auto_t hinge;
     message_start_t config;
     bool running;
     bool has_time;

@@ -98,10 +98,13 @@ bool message_read_hello(const frame_t *frame, message_hello_t *out)
 
 #define FLAG_HAS_AXES 1u
 #define FLAG_PAPER_ACCEPTED 2u
+#define FLAG_HAS_LEVERS 4u
+#define FLAG_HEADING_KNOWN 8u
 
 void message_write_estimate(frame_writer_t *out, const message_estimate_t *in)
 {
-    const jcal_hinge_result_t *result = &in->result;
+    const jcal_hinge_auto_result_t *all = &in->result;
+    const jcal_hinge_result_t *result = &all->hinge;
     frame_write_begin(out);
     frame_write_u8(out, in->events);
     frame_write_u32(out, in->token);
@@ -111,7 +114,10 @@ void message_write_estimate(frame_writer_t *out, const message_estimate_t *in)
     frame_write_u8(out, (uint8_t)result->head.weak);
     frame_write_u8(out, (uint8_t)result->head.hint);
     frame_write_u8(out, (uint8_t)result->head.reason);
-    frame_write_u8(out, (result->has_axes ? FLAG_HAS_AXES : 0u) | (result->paper_accepted ? FLAG_PAPER_ACCEPTED : 0u));
+    frame_write_u8(out, (result->has_axes ? FLAG_HAS_AXES : 0u) | (result->paper_accepted ? FLAG_PAPER_ACCEPTED : 0u) |
+                            (all->has_levers ? FLAG_HAS_LEVERS : 0u) | (all->heading.known ? FLAG_HEADING_KNOWN : 0u));
+    frame_write_u8(out, (uint8_t)all->model);
+    frame_write_u8(out, (uint8_t)all->ready_for);
     write_vector(out, result->axis1);
     write_vector(out, result->axis2);
     frame_write_f32(out, result->uncertainty1_rad);
@@ -120,6 +126,10 @@ void message_write_estimate(frame_writer_t *out, const message_estimate_t *in)
     frame_write_f32(out, result->progress_axis1);
     frame_write_f32(out, result->progress_axis2);
     frame_write_f32(out, result->progress_sign);
+    frame_write_f32(out, all->flexion_uncertainty_rad);
+    frame_write_f32(out, all->heading.heading_rad);
+    write_vector(out, all->joint_to_sensor1_m);
+    write_vector(out, all->joint_to_sensor2_m);
     frame_write_u64(out, result->head.t_us);
     frame_write_u32(out, result->head.samples);
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
@@ -130,7 +140,8 @@ void message_write_estimate(frame_writer_t *out, const message_estimate_t *in)
 bool message_read_estimate(const frame_t *frame, message_estimate_t *out)
 {
     frame_reader_t in = frame_read_begin(frame);
-    jcal_hinge_result_t *result = &out->result;
+    jcal_hinge_auto_result_t *all = &out->result;
+    jcal_hinge_result_t *result = &all->hinge;
     memset(out, 0, sizeof *out);
     out->events = frame_read_u8(&in);
     out->token = frame_read_u32(&in);
@@ -143,6 +154,10 @@ bool message_read_estimate(const frame_t *frame, message_estimate_t *out)
     const uint8_t flags = frame_read_u8(&in);
     result->has_axes = (flags & FLAG_HAS_AXES) != 0;
     result->paper_accepted = (flags & FLAG_PAPER_ACCEPTED) != 0;
+    all->has_levers = (flags & FLAG_HAS_LEVERS) != 0;
+    all->heading.known = (flags & FLAG_HEADING_KNOWN) != 0;
+    all->model = (jcal_model_t)frame_read_u8(&in);
+    all->ready_for = (jcal_ready_for_t)frame_read_u8(&in);
     result->axis1 = read_vector(&in);
     result->axis2 = read_vector(&in);
     result->uncertainty1_rad = frame_read_f32(&in);
@@ -151,6 +166,10 @@ bool message_read_estimate(const frame_t *frame, message_estimate_t *out)
     result->progress_axis1 = frame_read_f32(&in);
     result->progress_axis2 = frame_read_f32(&in);
     result->progress_sign = frame_read_f32(&in);
+    all->flexion_uncertainty_rad = frame_read_f32(&in);
+    all->heading.heading_rad = frame_read_f32(&in);
+    all->joint_to_sensor1_m = read_vector(&in);
+    all->joint_to_sensor2_m = read_vector(&in);
     result->head.t_us = frame_read_u64(&in);
     result->head.samples = frame_read_u32(&in);
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {

@@ -7,7 +7,7 @@
 #define JCAL_HUB_MESSAGES_H
 
 #include "frame.h"
-#include "jointcal/hinge.h"
+#include "jointcal/hinge_auto.h"
 
 /// A sample's time if it is not known: the sample is counted as not finite.
 #define MESSAGE_TIME_UNKNOWN UINT64_MAX
@@ -34,9 +34,9 @@ typedef struct {
 
 typedef struct {
     uint8_t events;
-    uint32_t token;   ///< Of the request, else 0.
-    uint64_t now_us;  ///< Largest sample time so far; MESSAGE_TIME_UNKNOWN before any.
-    jcal_hinge_result_t result;
+    uint32_t token;                   ///< Of the request, else 0.
+    uint64_t now_us;                  ///< Largest sample time so far; MESSAGE_TIME_UNKNOWN before any.
+    jcal_hinge_auto_result_t result;  ///< Without bend_rad and gravity_off_m_s2.
 } message_estimate_t;
 
 typedef struct {

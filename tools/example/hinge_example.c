@@ -6,22 +6,22 @@
 #include <math.h>
 #include <stdio.h>
 
-static jcal_hinge_t knee; /* a plain struct: no heap, no hidden state */
+static jcal_hinge_auto_t knee; /* a plain struct: no heap, no hidden state */
 
 /* Once, before the first reading. */
 static bool knee_start(void)
 {
-    const jcal_hinge_config_t config = jcal_hinge_config_default();
-    return jcal_hinge_init(&knee, &config) == JCAL_OK;
+    const jcal_hinge_auto_config_t config = jcal_hinge_auto_config_default();
+    return jcal_hinge_auto_init(&knee, &config) == JCAL_OK;
 }
 
 /* Call this for every pair of readings: rad/s, m/s^2, microseconds from any origin. */
-static bool knee_is_ready(uint64_t t_us, jcal_imu_t thigh, jcal_imu_t shank, jcal_hinge_result_t *result)
+static bool knee_is_ready(uint64_t t_us, jcal_imu_t thigh, jcal_imu_t shank, jcal_hinge_auto_result_t *result)
 {
     const jcal_pair_t pair = {t_us, thigh, shank};
-    (void)jcal_hinge_update(&knee, &pair); /* a rejected sample is counted in the result */
-    (void)jcal_hinge_get(&knee, result);   /* axis1, axis2, and how far off they may be */
-    return result->head.status == JCAL_READY;
+    (void)jcal_hinge_auto_update(&knee, &pair);   /* a rejected sample is counted in the result */
+    (void)jcal_hinge_auto_get(&knee, result);     /* axes, what they are good for, how far off they may be */
+    return result->ready_for != JCAL_FOR_NOTHING; /* jcal_hinge_auto_flexion(&knee) is the angle, rad */
 }
 
 /* In place of a sensor: a segment that hangs from a tilting joint axis (its z) and turns about it. */
@@ -38,7 +38,7 @@ int main(void)
     if (!knee_start()) {
         return 1;
     }
-    jcal_hinge_result_t result;
+    jcal_hinge_auto_result_t result;
     bool ready = false;
     for (uint32_t k = 0; k < 3000 && !ready; k++) { /* 50 Hz, at most one minute */
         const float t = 0.02f * (float)k, tilt = 1.0f + sinf(t), tilt_rate = cosf(t);
@@ -47,8 +47,9 @@ int main(void)
         ready = knee_is_ready(20000u * (uint64_t)k, thigh, shank, &result);
     }
     if (ready) {
-        printf("axis of the shank sensor: %.3f %.3f %.3f, right to %.1f deg\n", (double)result.axis2.x,
-               (double)result.axis2.y, (double)result.axis2.z, (double)result.uncertainty2_rad * 57.3);
+        printf("axis of the shank sensor: %.3f %.3f %.3f, right to %.1f deg\n", (double)result.hinge.axis2.x,
+               (double)result.hinge.axis2.y, (double)result.hinge.axis2.z,
+               (double)result.hinge.uncertainty2_rad * 57.3);
     }
     return ready ? 0 : 1;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Write the golden vectors, host_tests/golden/hinge.h, two_dof.h, center.h and chain.h, from the float64 references.
+"""Write the golden vectors, host_tests/golden/*.h, from the float64 references.
 
     python3 tools/maintain/make_golden.py            write the files
     python3 tools/maintain/make_golden.py --check    exit 1 if the numbers in the repository differ
@@ -12,7 +12,8 @@ The numbers know nothing of the C code: samples come from the simulator, the cos
 the stream form and of OLS20 from jointcal_tools.ols20 and from the formulas of
 docs/METHOD.md section 2, written out below; those of the 2-DoF joint from
 jointcal_tools.lai22 and lai22_angles, those of the joint centre from jointcal_tools.ols17,
-and those of what ties hip and knee from weighted least squares, written out below.
+those of what ties hip and knee from weighted least squares, written out below, and those
+of the functional joint from jointcal_tools.functional_reference.
 """
 
 from __future__ import annotations
@@ -28,7 +29,8 @@ import numpy as np
 TOOLS = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOOLS / "python"))
 
-from jointcal_tools import lai22, lai22_angles, ols17, ols20  # noqa: E402
+from jointcal_tools import functional_reference as functional  # noqa: E402
+from jointcal_tools import functional_sensor, lai22, lai22_angles, ols17, ols20  # noqa: E402
 from jointcal_tools import quaternions as quat  # noqa: E402
 from jointcal_tools.lai22_signals import Samples  # noqa: E402
 from jointcal_tools.recordings import Recording  # noqa: E402
@@ -42,6 +44,7 @@ POINTS = 6
 TWO_DOF_SAMPLES = 30
 CENTER_SAMPLES, CENTER_SHOWN = 250, 12
 CENTER_RATE_HZ = 50.0
+FUNCTIONAL_S, FUNCTIONAL_STEP, FUNCTIONAL_POINTS, FUNCTIONAL_POSES = 18.0, 6, 4, 8
 CHAIN_STATES = 18
 CHAIN_OBSERVED = 3
 SAME_BIAS_M_S2 = 0.01  # by how much one accelerometer may differ from itself
@@ -413,7 +416,184 @@ def chain_header() -> str:
 """
 
 
-HEADERS = {"hinge.h": hinge_header, "two_dof.h": two_dof_header, "center.h": center_header, "chain.h": chain_header}
+class FunctionalCase(NamedTuple):
+    """A made-up hinge whose second level frame drifts, in float32, and sums of it."""
+
+    ticks: list[tuple[functional_sensor.Tick, functional_sensor.Tick]]
+    weights: list[functional.Weights]
+    closes: np.ndarray  # number of ticks before it, heading and turn of what is merged (if anything)
+    sums: functional.Sums
+    truth: functional.Point
+
+
+def functional_ticks() -> tuple[list[tuple[functional_sensor.Tick, functional_sensor.Tick]], Recording]:
+    """Every sixth tick only, as if sensors had fewer: less to store, and sums do not mind."""
+    rec = simulate_hinge(HingeSpec(motions=(("rest", 1.0), ("7", FUNCTIONAL_S)), rate_hz=RATE_HZ, seed=SEED, soft_tissue_deg=0.5,
+                                   acc_bias=0.2, gyr_bias_deg_s=0.5))
+    sensors = []
+    for gyr, acc, drift_rad_s in ((rec.gyr1, rec.acc1, 0.0), (rec.gyr2, rec.acc2, 0.01)):
+        ticks = functional_sensor.features(rec.t_s, functional_sensor.orientation(rec.t_s, gyr, acc), gyr, acc)
+        ticks = ticks[round(1.0 / ticks[0].dt_s)::FUNCTIONAL_STEP]
+        rz = [functional.about_z(complex(np.exp(1j * (0.7 + drift_rad_s * tick.t_s)))) for tick in ticks]
+        sensors.append([functional_sensor.Tick(tick.t_s, float(float32(FUNCTIONAL_STEP * tick.dt_s)), 1, *map(float32, (
+            z @ tick.turn, z @ tick.rate, z @ tick.lever, z @ tick.velocity, tick.gyr)), tick.acc_level)
+            for tick, z in zip(ticks, rz, strict=True)])
+    return list(zip(*sensors, strict=True)), rec
+
+
+def leaning_turn(rng: np.random.Generator, heading: complex) -> np.ndarray:
+    """A relative turn that is a few degrees away from its heading."""
+    return functional.about_z(heading) @ functional.turn_of(0.05 * rng.standard_normal(3))
+
+
+def functional_case(rng: np.random.Generator) -> FunctionalCase:
+    ticks, rec = functional_ticks()
+    sums, point, closes, weights = functional.Sums(), functional.Point(rec.axis1, rec.axis2), [], []
+    for number, (tick1, tick2) in enumerate(ticks, 1):
+        rate2 = float(tick1.gyr @ tick1.gyr + tick2.gyr @ tick2.gyr)
+        weights.append(functional.Weights(*map(float, float32(functional.weights_of(tick1.dt_s, rate2)))))
+        sums.add(tick1, tick2, weights[-1])
+        if sums.is_full:
+            functional.find_heading(sums, point, functional.BLOCKS - 1)
+            angle = np.angle(point.heading[-1]) + 0.1 * rng.standard_normal()
+            heading = complex(*float32([np.cos(angle), np.sin(angle)]))
+            turn = float32(leaning_turn(rng, heading))
+            point.heading[-1], point.turn[-1] = heading, turn
+            closes.append(np.r_[number, heading.real, heading.imag, turn.ravel()])
+            sums.close(point)
+    assert len(closes) == 3
+    return FunctionalCase(ticks, weights, np.array(closes), sums, functional.Point(rec.axis1, rec.axis2))
+
+
+def functional_point(rng: np.random.Generator, case: FunctionalCase) -> functional.Point:
+    """Axes a few degrees off, levers anywhere, headings and turns that are the best but for some degrees."""
+    point = case.truth.copy()
+    point.j1, point.j2 = (float32(functional.moved(j, 0.1 * rng.standard_normal(3))) for j in (point.j1, point.j2))
+    point.r1, point.r2 = float32(rng.uniform(-0.2, 0.2, (2, 3)))
+    functional.measure(case.sums, functional.cross_of(case.sums, point), point)
+    for b in range(functional.BLOCKS):
+        functional.find_heading(case.sums, point, b)
+        angle = np.angle(point.heading[b]) + 0.1 * rng.standard_normal()
+        point.heading[b] = complex(*float32([np.cos(angle), np.sin(angle)]))
+        point.turn[b] = float32(leaning_turn(rng, point.heading[b]))
+    return point
+
+
+def point_row(point: functional.Point) -> np.ndarray:
+    headings = [[h.real, h.imag] for h in point.heading]
+    return np.concatenate([point.j1, point.j2, point.r1, point.r2, np.ravel(headings), np.ravel(point.turn)])
+
+
+def functional_rows(sums: functional.Sums, point: functional.Point) -> dict[str, np.ndarray]:
+    """What each step makes of a point. Levers and weights of the first steps are those that all later ones have."""
+    rows = {}
+    cross = functional.cross_of(sums, point)
+    rows["cross"] = np.concatenate([x.ravel() for x in (cross.turn, cross.rate, cross.lever, cross.level)])
+    functional.put_levers(sums, cross.lever, point)
+    rows["levers"] = np.r_[point.r1, point.r2, point.lack, point.speed2]
+    functional.measure(sums, cross, point)
+    rows["sizes"] = np.r_[point.size, point.weight, point.energy]
+    h = functional.weighted_quadric(sums, cross, point)
+    rows["quadric"] = np.r_[packed(h[:3, :3]), packed(h[3:, 3:]), h[:3, 3:].ravel(), h @ point.j]
+    stepped = point.copy()
+    functional.step_axes(h, stepped)
+    rows["axes"] = np.r_[stepped.j1, stepped.j2]
+    blocks = range(functional.BLOCKS)
+    headings = [functional.best_heading(sums, point, b) for b in blocks]
+    rows["headings"] = np.ravel([[z.real, z.imag] for z in headings])
+    slopes = [functional.slope_vector(point.turn[b].T @ functional.rate_pull(sums, point, b)) for b in blocks]
+    rows["turn_slopes"] = np.ravel(slopes)
+    rows["nuisances"] = np.ravel([packed(functional.nuisance(sums, point, b)) for b in blocks])
+    rows["nuisance_slopes"] = np.ravel([functional.nuisance_slope(sums, point, b) for b in blocks])
+    rows["couplings"] = np.ravel([functional.coupling(sums, point, b) for b in blocks])
+    for _ in range(200):
+        for b in blocks:
+            functional.find_heading(sums, point, b)
+    rows["settled"] = np.concatenate([np.ravel([[z.real, z.imag] for z in point.heading]), np.ravel(point.turn)])
+    described = functional.describe(sums, point)
+    u, _, vt = np.linalg.svd(functional.cross_of(sums, point).turn)
+    other, evidence = functional.rival_of(sums, point)
+    bounds = functional.bounds_of(sums, point)
+    assert bounds.max() < 0.5
+    rows["bounds"] = np.r_[bounds, functional.flexion_bound(float(bounds.max()), point.size, described[1])]
+    rows["home"] = point.j
+    rows["described"] = np.array(described)
+    rows["stiffest"] = np.r_[u[:, 0], vt[0]]
+    rows["rivals"] = np.r_[evidence, other.lack / sums.motion_s, other.j1, other.j2]
+    return rows
+
+
+FUNCTIONAL_TABLES = {
+    "cross": "X of turn, rate (3 x 3), lever (4 x 4) and of the rate with level turns (3 x 3).",
+    "levers": "r1, r2, m, of that X, what they leave, (m/s)^2 s, mean square of both sides, (m/s)^2.",
+    "sizes": "With these levers: sizes, weights, energy.",
+    "quadric": "With these weights: blocks 11 and 22 of H, packed, and 12, and H j.",
+    "axes": "j1, j2 after a Newton step.",
+    "headings": "The best headings of both blocks while relative turns go with them.",
+    "turn_slopes": "At the point: first derivative of -tr(D' M) of both blocks.",
+    "nuisances": "Second derivatives by the turns of both blocks, packed.",
+    "nuisance_slopes": "First derivatives by the same.",
+    "couplings": "Derivatives of the slope by the turns of both blocks: by the six components of j1 and j2 (6 x 3).",
+    "settled": "Headings and relative turns that are the best for the axes.",
+    "home": "From there: j1, j2 after the last step.",
+    "bounds": "There: bounds of both axes and of the angle, rad.",
+    "described": "There: share, bending, rad, stiffness.",
+    "stiffest": "There: the axes that lean least, by the singular vectors of X of turn.",
+    "rivals": "There: evidence of turn, rate and lever, what the other pairing leaves, (m/s)^2, its axes.",
+}
+
+
+def functional_poses(rng: np.random.Generator, point: functional.Point) -> np.ndarray:
+    """(FUNCTIONAL_POSES, 9): orientations and the angle with the heading of the open block."""
+    q = random_directions(rng, 2 * FUNCTIONAL_POSES, 4)
+    turns = quat.matrices(q / np.linalg.norm(q, axis=1, keepdims=True))
+    angles = [functional.flexion(point, point.heading[0], a, b) for a, b in zip(turns[::2], turns[1::2], strict=True)]
+    return np.column_stack([q[::2], q[1::2], angles])
+
+
+def functional_header() -> str:
+    rng = np.random.default_rng(SEED)
+    case = functional_case(rng)
+    points = [functional_point(rng, case) for _ in range(FUNCTIONAL_POINTS)]
+    poses = functional_poses(rng, points[0])
+    point_table = np.array([point_row(point) for point in points])
+    rows = [functional_rows(case.sums, point) for point in points]
+    ticks = np.array([np.concatenate([*(np.r_[t.turn.ravel(), t.rate.ravel(), t.lever.ravel(), t.velocity, t.gyr] for t in pair), w])
+                      for pair, w in zip(case.ticks, case.weights, strict=True)])
+    shape = "turn, rate, lever (3 x 3 each), velocity, gyr"
+    tables = [
+        table("golden_ticks", f"Of sensor 1, then of sensor 2: {shape}; then the weights: motion, s, spin, rate2.", ticks, "float"),
+        table("golden_closes", "A block is closed after so many ticks; heading (re, im) and turn of the one that is merged.",
+              case.closes, "float"),
+        table("golden_points", "j1, j2, r1, r2, headings (re, im) of both blocks, turns of both blocks.", point_table, "float"),
+        table("golden_poses", "q1, q2, sensor to level frame, and the angle at the first point with the heading of its open block; its "
+              "zero is arbitrary.", poses),
+        *(table(f"golden_{name}", comment, np.array([row[name] for row in rows])) for name, comment in FUNCTIONAL_TABLES.items()),
+    ]
+    return f"""/* SPDX-License-Identifier: MIT */
+/// @file
+/// Golden vectors of the functional joint in float64, generated: do not edit. Compared by unit/functional/test_golden.c.
+///
+/// Tables behind golden_poses have one row for each of golden_points.
+/// Generator tools/maintain/make_golden.py, seed {SEED}, numpy {np.__version__}.
+#ifndef GOLDEN_FUNCTIONAL_H
+#define GOLDEN_FUNCTIONAL_H
+
+/* clang-format off */
+#define GOLDEN_TICKS {len(ticks)}
+#define GOLDEN_TICK_S {case.ticks[0][0].dt_s:.2f}f
+#define GOLDEN_CLOSES {len(case.closes)}
+#define GOLDEN_POINTS {FUNCTIONAL_POINTS}
+#define GOLDEN_POSES {FUNCTIONAL_POSES}
+
+""" + "\n".join(tables) + """/* clang-format on */
+
+#endif /* GOLDEN_FUNCTIONAL_H */
+"""
+
+
+HEADERS = {"hinge.h": hinge_header, "two_dof.h": two_dof_header, "center.h": center_header, "chain.h": chain_header,
+           "functional.h": functional_header}
 
 
 def differences(old: str, new: str) -> list[str]:

@@ -48,6 +48,30 @@ CWINDOW = "lib/center/window.c"
 CHAIN = "lib/chain/stream.c"
 TIE = "lib/chain/tie.c"
 KINEMATICS = "lib/sample/kinematics.c"
+ATTITUDE = "lib/imu/attitude.c"
+GYR_BIAS = "lib/imu/bias.c"
+FEATURES = "lib/imu/features.c"
+STAGE = "lib/imu/sensor.c"
+LOWPASS = "lib/imu/lowpass.h"
+TURN = "lib/imu/turn.c"
+F_AXES = "lib/functional/axes.c"
+F_BOUNDS = "lib/functional/bounds.c"
+F_DESCRIBE = "lib/functional/describe.c"
+F_HEADINGS = "lib/functional/headings.c"
+F_JUDGE = "lib/functional/judge.c"
+F_LEVERS = "lib/functional/levers.c"
+F_MODEL = "lib/functional/model.c"
+F_PAIR = "lib/functional/pair.c"
+F_RIVAL = "lib/functional/rival.c"
+F_SEARCH = "lib/functional/search.c"
+F_STREAM = "lib/functional/stream.c"
+F_SUMS = "lib/functional/sums.c"
+F_TRACK = "lib/functional/track.c"
+F_TWIST = "lib/functional/twist.c"
+AUTO = "lib/auto/hinge.c"
+A_JUDGE = "lib/auto/judge.c"
+A_RESULT = "lib/auto/result.c"
+DECAY = "lib/math/decay.c"
 
 MUTATIONS = [
     (MODEL, "out[3] = w.x * w.y;", "out[3] = w.x * w.z;", "product xy"),
@@ -104,7 +128,6 @@ MUTATIONS = [
      "out[0] = -sign * jcal_vec3_dot(to, axis->u);", "direction of the pull"),
     (FORGET, "((1.0f - keep) / pivot)", "(keep / pivot)", "forgetting one axis"),
     (FORGET, "self->matrix[jcal_sym_at(i, p)] = keep * column[i];", "(void)keep;", "what is left of a row"),
-    (FORGET, "#define ROUNDING (64.0f * FLT_EPSILON)", "#define ROUNDING 0.0f", "a pivot that is rounding"),
     (ENGINE, "(self->verdict.contradicted ? motion_s : -motion_s)", "-motion_s", "sums that no hinge explains"),
     (JUDGE, "(blank && !is_explained(self, STRAINED_MIN))", "false", "sums of which no axis comes"),
     (REFINE,
@@ -583,9 +606,116 @@ MUTATIONS = [
     (CJUDGE, "sqrtf(jcal_max(lasting, LASTING_MIN))", "sqrtf(lasting)", "what lasts as little as noise"),
     (CENTER, "(self->work.sums.blocks >= BLOCKS_MIN)", "(self->work.sums.blocks >= 1.0f)", "steps of too little data"),
     (CENTER, "if (jcal_center_sums_close(&self->work.sums) ||", "if (", "blocks that are never closed"),
+    (F_AXES, "(LASTING + (memory_s[f] / motion_s))", "(memory_s[f] / motion_s)", "the share that lasts"),
+    (F_AXES, "energy += (rows[f] / memory_s[f]) * jcal_ln(size);", "energy += rows[f] * jcal_ln(size);", "readings of each kind"),
+    (F_AXES, "out->h12[i] = -((turn * x->turn[i]) + (rate * x->rate[i]));", "out->h12[i] = (turn * x->turn[i]) + (rate * x->rate[i]);",
+     "sign of both sensors' products"),
+    (F_AXES, "const float off2 = bend ? jcal_vec3_dot(j[1], slope2) : 0.0f;", "const float off2 = 0.0f;", "bend of the second sphere"),
+    (F_AXES, "hessian[7] = jcal_vec3_dot(t2.v, x1v);", "hessian[7] = jcal_vec3_dot(t2.v, x1u);", "an element between both axes"),
+    (F_AXES, "#define STEP_MAX_RAD 0.4f", "#define STEP_MAX_RAD 4e-3f", "longest step"),
+    (F_AXES, "v1[i] -= common * v0[i];", "v1[i] += common * v0[i];", "second direction that is open"),
+    (F_BOUNDS, "jcal_vec3_t left[4] = {t1.u, t1.v, point->j1, point->j1};", "jcal_vec3_t left[4] = {t1.v, t1.u, point->j1, point->j1};",
+     "tangents of axis 1"),
+    (F_BOUNDS, "out->slope[2] = (n[1] - n[3]) + turn.im + lever.im;", "out->slope[2] = (n[1] - n[3]) + turn.im - lever.im;",
+     "pull of the levers on a heading"),
+    (F_BOUNDS, "jcal_max(turn.re, 0.0f) + jcal_max(lever.re, 0.0f) - (2.0f *", "jcal_max(turn.re, 0.0f) - (2.0f *",
+     "what levers know of a heading"),
+    (F_BOUNDS, "block_share[b] / block_share(sums, b);", "block_share[b] / self->verdict.block_share[b];", "ticks between the slices of the bounds"),
+    (F_BOUNDS, "widest(p[2][2], p[2][3], p[3][3])", "widest(p[0][0], p[0][1], p[1][1])", "whose bound it is"),
+    (F_BOUNDS, "(READING_S / jcal_max(self->sums.motion_s, FLT_MIN))", "0.0f", "bounds shrink with motion"),
+    (F_BOUNDS, "verdict->bound2_rad + way2", "verdict->bound2_rad", "the way that is left to the minimum"),
+    (F_BOUNDS, "sqrtf((half * half) + (p01 * p01))", "half", "larger eigenvalue"),
+    (F_BOUNDS, "sqrtf(leaning + (bent * bent))", "sqrtf(leaning)", "error of the angle with bending"),
+    (F_DESCRIBE, "return (0.5f * trace3(a)) - inside;", "return trace3(a) - inside;", "rates along an axis"),
+    (F_DESCRIBE, "(2.0f * jcal_functional_between(sums->along, j1, j2));", "(1.0f * jcal_functional_between(sums->along, j1, j2));",
+     "relative rate along the axis"),
+    (F_DESCRIBE, "squares - (along * along) + (2.0f * product)", "squares - (along * along)", "how far it bent"),
+    (F_DESCRIBE, "(is_turned_over ? (2.0f", "(!is_turned_over ? (2.0f", "sign of the determinant"),
+    (F_DESCRIBE, "*at->qq = qq + (t * pq);", "*at->qq = qq - (t * pq);", "eigenvalues of a 3 x 3"),
+    (F_HEADINGS, "m[4] + re, m[5],", "m[4] - re, m[5],", "what ties a turn to its heading"),
+    (F_HEADINGS, "out[1] = n[6] - n[2];", "out[1] = n[2] - n[6];", "slope of a turn"),
+    (F_HEADINGS, "out[3] = -0.5f * (n[2] + n[6]);", "out[3] = -1.0f * (n[2] + n[6]);", "curvature of a turn"),
+    (F_HEADINGS, "rate.im - turn.im - lever.im", "rate.im - turn.im + lever.im", "pull of the levers"),
+    (F_HEADINGS, "follow(point->turn[b], jcal_plane_against(was, point->heading[b]));", "(void)follow;", "a turn follows its heading"),
+    (F_HEADINGS, "0.5f * turn[0], 0.5f * turn[1]", "turn[0], turn[1]", "half angle of a turn"),
+    (F_JUDGE, "if (self->gravity_off > (slack * GRAVITY_OFF_MAX)) {", "if (self->gravity_off > (9.0f * GRAVITY_OFF_MAX)) {", "gravity that is off"),
+    (F_JUDGE, "#define AGREED_MIN 3u", "#define AGREED_MIN 1u", "judgements that agree"),
+    (F_JUDGE, "return evidence > -EVIDENCE_MIN;", "return true;", "a hint that the data contradict"),
+    (F_JUDGE, "(left - SPEED_NOISE2) <= (slack * LACK_MAX * speed2)", "(left - SPEED_NOISE2) <= (slack * speed2)", "two sensors that share no joint"),
+    (F_JUDGE, "(found != JCAL_REASON_DOES_NOT_FIT) &&", "", "bounds of an axis that leans"),
+    (F_JUDGE, "(find_objection(self, slack) == JCAL_REASON_NONE);", "true;", "bounds of a slow joint that does not bend"),
+    (F_JUDGE, "(slack * BOUND_FOR_FLEXION_RAD)", "(9.0f * BOUND_FOR_FLEXION_RAD)", "axes that are no good for angles"),
+    (F_LEVERS, "h[10] = -x[6];", "h[10] = -x[9];", "row and column of the levers"),
+    (F_LEVERS, "#define RIDGE 0.005f", "#define RIDGE 0.05f", "ridge of the levers"),
+    (F_LEVERS, "own - (2.0f * product_of(x, r, &r[3]))", "own - (1.0f * product_of(x, r, &r[3]))", "what the levers leave"),
+    (F_MODEL, "rate[rate_at(0u, i, 1u, k)] - rate[rate_at(1u, i, 0u, k)]", "rate[rate_at(0u, i, 1u, k)] + rate[rate_at(1u, i, 0u, k)]",
+     "rates turned about z"),
+    (F_MODEL, "free_row(so_far, &rate[54u + (9u * i)], z)", "free_row(so_far, &rate[54u + (9u * i)], y)", "rates turned at will"),
+    (F_MODEL, "return 0.5f * left / jcal_max(sums->rate2", "return left / jcal_max(sums->rate2", "share of the rates"),
+    (F_RIVAL, "x[i] = (2.0f * up[i]) - x[i];", "x[i] = up[i] - x[i];", "half a turn of all headings"),
+    (F_RIVAL, "other->size[f] / jcal_max(level.size[f], FLT_MIN)", "level.size[f] / jcal_max(other->size[f], FLT_MIN)", "for whom the odds are"),
+    (F_SEARCH, "const bool is_better = !self->has_estimate || (ahead > AHEAD);", "const bool is_better = !self->has_estimate;", "better solutions"),
+    (F_STREAM, "fabsf(tick2->acc_level_m_s2 - 9.81f)", "fabsf(tick1->acc_level_m_s2 - 9.81f)", "gravity of sensor 2"),
+    (F_STREAM, "(all <= SQUARES_MAX) && (tick->dt_s > 0.0f) && (tick->dt_s <= TICK_MAX_S)", "(all <= SQUARES_MAX)", "times between ticks that cannot be"),
+    (F_STREAM, "return (all <= SQUARES_MAX)", "return !(all > SQUARES_MAX)", "ticks that are not finite"),
+    (F_STREAM, ".spin = period_s * self->rate2 * share * share,", ".spin = period_s * self->rate2 * share,", "weight of the rates"),
+    (F_STREAM, "((tick1->epoch == self->epoch1) && (tick2->epoch == self->epoch2))", "(tick1->epoch == self->epoch1)", "a gap of sensor 2"),
+    (F_STREAM, "if (was_ready && jcal_functional_track_alarm(&self->track)) {", "if (false) {", "a slip"),
+    (F_STREAM, "verdict->agreed = 0u;", "verdict->agreed = verdict->agreed;", "another estimate is judged anew"),
+    (F_STREAM, "is_new && (self->sums.motion_s >", "is_new && (0.5f * self->sums.motion_s >", "how much is remembered"),
+    (F_SUMS, "to->im[at] += (a.x * b.y) - (a.y * b.x);", "to->im[at] += (a.x * b.y) + (a.y * b.x);", "headings of products"),
+    (F_SUMS, "sum[8] += weight * jcal_vec3_dot(c, b);", "sum[8] += weight * jcal_vec3_dot(c, a);", "products of lever rows"),
+    (F_SUMS, "add_square(self->rate2nd, weight, tick2->rate);", "add_square(self->rate2nd, weight, tick1->rate);", "rates of sensor 2"),
+    (F_SUMS, "jcal_functional_free_rates(self->rate_free, old->rate, point->turn[1]);", "jcal_functional_free_rates(self->rate_free, old->rate, point->turn[0]);",
+     "turn of a block that is merged"),
+    (F_SUMS, "self->block[0].time_s = time_s;", "(void)time_s;", "a fading block keeps its time"),
+    (F_TRACK, "const float fade = 1.0f / (1.0f + (tick1->dt_s / MEMORY_S));", "const float fade = 1.0f;", "the heading of this moment fades"),
+    (F_TRACK, "jcal_vec3_sub(tick->velocity, jcal_functional_times(tick->lever, r))", "jcal_vec3_add(tick->velocity, jcal_functional_times(tick->lever, r))",
+     "velocity of the joint's centre"),
+    (F_TWIST, "return jcal_atan2(m[2] - m[1], m[0] + m[3]);", "return jcal_atan2(m[1] - m[2], m[0] + m[3]);", "sense of the angle"),
+    (F_TRACK, "return sign * jcal_twist_angle(", "return jcal_twist_angle(", "sense of the angle about the axis that is reported"),
+    (F_PAIR, "const float due = 1.0f + (0.9f * slices_per_s * dt_s);", "const float due = 0.0f * slices_per_s * dt_s;", "slices for a reading"),
+    (A_RESULT, "#define RIGID_RATE_SHARE 0.08f", "#define RIGID_RATE_SHARE 0.8f", "who is a person"),
+    (A_RESULT, "if (!settled && (is_person", "if ((is_person", "a rigid hinge that is ready"),
+    (AUTO, "(void)jcal_functional_reset(&self->functional.joint);", "(void)self->functional.joint;", "a slip that the rigid model found"),
+    (AUTO, "out.axis1_toward = config->hinge.axis1_toward;", "(void)config->hinge.axis1_toward;", "settings of the functional model"),
+    (A_RESULT, "|| functional->for_axes) ? JCAL_FOR_AXES", "|| functional->for_flexion) ? JCAL_FOR_AXES", "what it is ready for"),
+    (A_RESULT, "self->has_zero ? self->zero :", "false ? self->zero :", "one zero whichever model speaks"),
+    (A_RESULT, "if (self->follows && (out->model == JCAL_MODEL_RIGID)) {", "if (self->believed) {", "the heading while the rigid model is not believed"),
     (TIE, "!hip->work.as.inverse.is_factored ||", "", "ties without a factor of the hip's"),
     (CJUDGE, "return inverse->is_factored;", "return true;", "a matrix without a factor"),
     (SENSOR, "return exceeds(&now[0], GYR_CLIP_MIN_RAD_S) &&", "return true &&", "a coarse reading at rest"),
+    (ATTITUDE, "jcal_quat(w, half * d.y, -half * d.x, 0.0f)", "jcal_quat(w, half * d.y, half * d.x, 0.0f)", "sense of the levelling"),
+    (ATTITUDE, "jcal_vec3_add(self->gyr_rad_s, gyr_rad_s), 0.5f * dt_s", "jcal_vec3_add(gyr_rad_s, gyr_rad_s), 0.5f * dt_s",
+     "mean of both rates"),
+    (ATTITUDE, "jcal_quat_mul(self->q_s_e, jcal_turn_by(angle))", "jcal_quat_mul(jcal_turn_by(angle), self->q_s_e)", "side of the turn"),
+    (ATTITUDE, "*mean = jcal_quat_rotate(correction, *mean);", "", "low-pass in a frame that does not turn"),
+    (ATTITUDE, "*slope = jcal_quat_rotate(correction, *slope);", "", "its second state"),
+    (ATTITUDE, "1.5f - (0.5f *", "1.5f + (0.5f *", "unit length"),
+    (LOWPASS, "level[2] = g * level[1];", "level[2] = level[1];", "coefficient of the low-pass"),
+    (LOWPASS, "(dt_s / (since_s + dt_s))", "0.0f", "running mean at the start"),
+    (LOWPASS, "x * (1.0f + (x * x * (1.0f / 3.0f)))", "x * (1.0f + (x * (1.0f / 3.0f)))", "tangent"),
+    (TURN, "(1.0f / 24.0f) -", "(1.0f / 20.0f) -", "series of the cosine"),
+    (TURN, "s = turn.im / h;", "s = turn.im;", "large turns"),
+    (TURN, "r[5] = yz - wx;", "r[5] = yz + wx;", "element of the matrix"),
+    (GYR_BIAS, "p[1] -= gain.x * pc.y;", "p[1] += gain.x * pc.y;", "covariance of the bias"),
+    (GYR_BIAS, "taken[0] - (per_s * correction_rad->x)", "taken[0] + (per_s * correction_rad->x)", "what a correction tells of the bias"),
+    (GYR_BIAS, "VERTICAL_VARIANCE * noise2", "noise2", "weight of the vertical part"),
+    (GYR_BIAS, "jcal_max(-BIAS_MAX, jcal_min(BIAS_MAX, b->x))", "b->x", "largest bias"),
+    (GYR_BIAS, "self->rest_us = rests ? lasts_us : 0u;", "self->rest_us = lasts_us;", "end of rest"),
+    (GYR_BIAS, "#define REST_US 2000000u", "#define REST_US 1500000u", "how long rest must last"),
+    (FEATURES, "0.5f * force_m_s2.x, 0.5f * force_m_s2.y", "force_m_s2.x, force_m_s2.y", "weight of the first specific force"),
+    (FEATURES, "put_sum(self->chain[V], v.x, rates->pole)", "2.0f * put(self->chain[V], v.x, rates->pole)", "trapezoidal rule"),
+    (FEATURES, "out[3u * i] = (row[1] * w.z) - (row[2] * w.y);", "out[3u * i] = (row[1] * w.z) + (row[2] * w.y);", "R [w]x"),
+    (FEATURES, "*h = keep * (before + change);", "*h = (keep * before) + change;", "high-pass"),
+    (FEATURES, "high(&h[0], now - rate[i], rates->high_keep)", "high(&h[0], now, rates->high_keep)", "first high-pass of Q"),
+    (FEATURES, "#define TICK_LOW_HZ 3.0f", "#define TICK_LOW_HZ 3.3f", "cut-off of U and B"),
+    (FEATURES, "#define LEVEL_TAU_S 20.0f", "#define LEVEL_TAU_S 0.2f", "time of the mean vertical force"),
+    (STAGE, "((2u * since_us) + dt_us)", "(2u * since_us)", "half a sample before a tick is due"),
+    (STAGE, "if (!self->has_tick && (since_us == dt_us))", "if (self->has_tick && (since_us == dt_us))", "the second sample of an epoch"),
+    (STAGE, "(self->has_last && (dt_us == 0u))", "(self->has_last && (dt_us == 1u))", "a time that repeats"),
+    (STAGE, "#define GAP_S JCAL_CLOCK_SLOW_S", "#define GAP_S 0.1f", "longest distance of samples"),
+    (DECAY, "p = p * (2.0f - p);\n    return", "return", "doublings of the exponential"),
 ]
 
 # Old text -> why no test can see the difference.

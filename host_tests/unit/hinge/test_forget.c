@@ -85,6 +85,32 @@ static void what_was_given_up_twice_takes_nothing_off_the_others(void)
     }
 }
 
+/* Where unknown 1 is twice unknown 0, what is left of its pivot once 0 is gone is rounding; the others owe it nothing more. Expected: the
+   rows in double precision, less what unknown 0 explains of each. */
+static void a_pivot_that_is_rounding_takes_nothing_off_the_others(void)
+{
+    for (uint32_t seed = 1; seed <= 400; ++seed) {
+        fill(seed, 0.0);
+        const jcal_hinge_refine_t before = sums;
+        double own = 0.0;
+        for (int r = 0; r < ROWS; ++r) {
+            own += rows[r][0] * rows[r][0];
+        }
+        jcal_hinge_refine_forget_axis(&sums, 0u, 0.0f);
+        for (unsigned i = 2u; i < UNKNOWNS - 1u; ++i) { /* the last one is made of 0 and 1 */
+            double with = 0.0;
+            double alone = 0.0;
+            for (int r = 0; r < ROWS; ++r) {
+                with += rows[r][0] * rows[r][i];
+                alone += rows[r][i] * rows[r][i];
+            }
+            const double expected = alone - ((with * with) / own);
+            /* Sums of 30 products, and one elimination. */
+            TEST_ASSERT_TRUE(fabs((double)diagonal(i) - expected) < (1e-5 * (double)before.matrix[jcal_sym_at(i, i)]));
+        }
+    }
+}
+
 static void giving_up_a_part_again_and_again_stays_sound(void)
 {
     for (uint32_t seed = 1; seed <= 200; ++seed) {
@@ -128,6 +154,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(what_was_given_up_twice_takes_nothing_off_the_others);
+    RUN_TEST(a_pivot_that_is_rounding_takes_nothing_off_the_others);
     RUN_TEST(giving_up_a_part_again_and_again_stays_sound);
     RUN_TEST(sums_too_small_for_a_reciprocal_stay_sound);
     RUN_TEST(nothing_is_left_of_the_axis);

@@ -116,6 +116,10 @@ static void a_hint_of_the_pairing_means_the_same_beyond_a_tie(void)
     TEST_ASSERT_FALSE(jcal_hinge_obeys(&point, JCAL_SIGN_OPPOSITE, kept));
     jcal_hinge_obey(&point, JCAL_SIGN_OPPOSITE, kept);
     TEST_ASSERT_EQUAL_FLOAT(-1.0f, point.axis2.j.y);
+    /* The same for axis 2: it is held by its second component, although the first has become larger. */
+    jcal_hinge_point_set(&point, jcal_vec3(1.0f, 0.0f, 0.0f), jcal_vec3_normalise(jcal_vec3(-0.71f, 0.70f, 0.0f)));
+    TEST_ASSERT_FALSE(jcal_hinge_obeys(&point, JCAL_SIGN_SAME, none));
+    TEST_ASSERT_TRUE(jcal_hinge_obeys(&point, JCAL_SIGN_SAME, kept));
 }
 
 static void a_tie_does_not_end_ready_where_the_pairing_is_hinted(void)

@@ -23,8 +23,8 @@ void tearDown(void)
 
 static void every_call_result_has_a_text_of_its_own(void)
 {
-    const jcal_status_t all[] = {JCAL_OK,         JCAL_REJECTED,    JCAL_IDLE,    JCAL_ERR_ARG,
-                                 JCAL_ERR_CONFIG, JCAL_ERR_STORAGE, JCAL_ERR_FULL};
+    const jcal_status_t all[] = {JCAL_OK,      JCAL_REJECTED,   JCAL_IDLE,        JCAL_TICK,
+                                 JCAL_ERR_ARG, JCAL_ERR_CONFIG, JCAL_ERR_STORAGE, JCAL_ERR_FULL};
     for (size_t i = 0; i < COUNT(all); ++i) {
         TEST_ASSERT_NOT_EQUAL(0, strcmp("unknown", jcal_status_string(all[i])));
         for (size_t k = 0; k < i; ++k) {
@@ -88,6 +88,11 @@ static void reasons_are_null_for_none_and_words_otherwise(void)
     TEST_ASSERT_EQUAL_STRING("wrong_units_gyr", jcal_reason_string(JCAL_REASON_WRONG_UNITS_GYR));
     TEST_ASSERT_EQUAL_STRING("wrong_units_acc", jcal_reason_string(JCAL_REASON_WRONG_UNITS_ACC));
     TEST_ASSERT_EQUAL_STRING("rate_too_low", jcal_reason_string(JCAL_REASON_RATE_TOO_LOW));
+    TEST_ASSERT_EQUAL_STRING("gravity_off", jcal_reason_string(JCAL_REASON_GRAVITY_OFF));
+    TEST_ASSERT_EQUAL_STRING("not_one_joint", jcal_reason_string(JCAL_REASON_NOT_ONE_JOINT));
+    TEST_ASSERT_EQUAL_STRING("no_bend", jcal_reason_string(JCAL_REASON_NO_BEND));
+    TEST_ASSERT_EQUAL_STRING("more_axes", jcal_reason_string(JCAL_REASON_MORE_AXES));
+    TEST_ASSERT_EQUAL_STRING("move_faster", jcal_hint_string(JCAL_HINT_MOVE_FASTER));
 }
 
 static void numbers_that_stand_for_nothing_reach_no_memory_beyond_the_tables(void)
@@ -121,8 +126,8 @@ static void the_first_number_after_each_enumeration_is_unknown(void)
     TEST_ASSERT_EQUAL_STRING("unknown", jcal_calibration_string((jcal_calibration_t)4));
     TEST_ASSERT_EQUAL_STRING("unknown", jcal_engine_string((jcal_engine_t)2));
     TEST_ASSERT_NULL(jcal_weak_string((jcal_weak_t)7));
-    TEST_ASSERT_NULL(jcal_hint_string((jcal_hint_t)7));
-    TEST_ASSERT_NULL(jcal_reason_string((jcal_reason_t)11));
+    TEST_ASSERT_NULL(jcal_hint_string((jcal_hint_t)8));
+    TEST_ASSERT_NULL(jcal_reason_string((jcal_reason_t)15));
 }
 
 int main(void)

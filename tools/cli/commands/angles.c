@@ -100,10 +100,12 @@ static exit_status_t run_rows(session_t *session)
 
 static exit_status_t run_recording(session_t *session)
 {
-    const recording_event_t event = orientations_open(&session->orientations, &session->reading.recording);
+    const recording_event_t event =
+        orientations_open(&session->orientations, &session->reading.recording, session->options.source.hinge);
     if (event != RECORDING_ROW) {
         return reading_give_up(&session->reading, event);
     }
+    session->source.config.own_orientations = session->orientations.source == ORIENTATIONS_FROM_JOINT;
     session->reading.recording.check.times_only = session->orientations.source == ORIENTATIONS_FROM_COLUMNS &&
                                                   (session->source.given || !session->options.source.hinge);
     exit_status_t status = angle_table_open(&session->table, &session->options.table);

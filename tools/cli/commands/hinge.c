@@ -3,6 +3,7 @@
 #include "commands/hinge.h"
 
 #include "commands/commands.h"
+#include "options/values.h"
 #include "run/calibrate.h"
 #include "units.h"
 
@@ -13,10 +14,41 @@
 
 /* ---- Options ---- */
 
-/* The config of the window engine, whose `hinge` part serves both. */
-static void settle(struct argp_state *state, common_options_t *common, void *options)
+/* The config of the window engine, whose `hinge` part serves both, and what only the stream engine knows. */
+typedef struct {
+    jcal_hinge_window_config_t config;
+    float max_flexion_rad;
+} hinge_options_t;
+
+enum { KEY_MAX_FLEXION = OPTION_OWN };
+
+static const struct argp_option OPTIONS[] = {
+    {"max-flexion", KEY_MAX_FLEXION, "DEG", 0,
+     "Ready, too, when the axes put the joint's angle wrong by at most DEG degrees rms (default 3): what a person's joint allows. Not "
+     "with --engine window",
+     0},
+    {NULL, 0, NULL, 0, NULL, 0}};
+
+static error_t parse(int key, char *argument, struct argp_state *state, void *self)
 {
-    jcal_hinge_window_config_t *config = options;
+    hinge_options_t *options = self;
+    if (key != KEY_MAX_FLEXION) {
+        return ARGP_ERR_UNKNOWN;
+    }
+    options->max_flexion_rad = option_positive(state, "max-flexion", argument) * RAD_PER_DEG;
+    return 0;
+}
+
+static void settle(struct argp_state *state, common_options_t *common, void *self)
+{
+    hinge_options_t *options = self;
+    jcal_hinge_window_config_t *config = &options->config;
+    if (options->max_flexion_rad > 0.0f && common->engine == JCAL_ENGINE_WINDOW) {
+        argp_error(state, "--max-flexion does not go with --engine window, which knows rigid segments only");
+    }
+    if (!(options->max_flexion_rad > 0.0f)) {
+        options->max_flexion_rad = jcal_hinge_auto_config_default().max_flexion_rad;
+    }
     if (common->window_s > 0.0f && common->engine == JCAL_ENGINE_WINDOW) {
         argp_error(state, "--window does not go with --engine window here: its buffer counts samples, see --n-max");
     }
@@ -27,17 +59,26 @@ static void settle(struct argp_state *state, common_options_t *common, void *opt
     common->max_bound = config->hinge.max_bound_rad;
     const common_limit_t limits[] = {
         {"max_bound_rad", "max-bound", common->max_bound / RAD_PER_DEG, "a number of degrees from 0.06 to 28"},
-        {"n_max", "n-max", (float)config->n_max, "a number from 20 to 10000"}};
-    common_check(state, jcal_hinge_window_config_check(config), limits, sizeof limits / sizeof limits[0]);
+        {"n_max", "n-max", (float)config->n_max, "a number from 20 to 10000"},
+        {"max_flexion_rad", "max-flexion", options->max_flexion_rad / RAD_PER_DEG,
+         "a number of degrees from 0.06 to 28"}};
+    const jcal_hinge_auto_config_t both = {config->hinge, options->max_flexion_rad};
+    const char *wrong = jcal_hinge_window_config_check(config);
+    common_check(state, (wrong != NULL) ? wrong : jcal_hinge_auto_config_check(&both), limits,
+                 sizeof limits / sizeof limits[0]);
 }
 
 static const command_line_t LINE = {
     .args_doc = "RECORDING.csv",
-    .doc = "Finds both axes of a hinge joint from a recording of arbitrary motion.\v"
-           "The recording is CSV with one header line; the columns t_s (s), gyr1_x, gyr1_y, gyr1_z, gyr2_x ... (rad/s) "
-           "and acc1_x ... acc2_z (m/s^2) may stand in any order among others. Sensor 1 sits on the proximal segment, "
-           "sensor 2 on the distal one. - reads standard input.\n"
-           "\n" COMMON_EXIT_HELP COMMON_PICTURE,
+    .doc =
+        "Finds both axes of a hinge joint from a recording of arbitrary motion.\v"
+        "The recording is CSV with one header line; the columns t_s (s), gyr1_x, gyr1_y, gyr1_z, gyr2_x ... (rad/s) "
+        "and acc1_x ... acc2_z (m/s^2) may stand in any order among others. Sensor 1 sits on the proximal segment, "
+        "sensor 2 on the distal one. - reads standard input.\n"
+        "\n"
+        "On rigid segments the axes are exact (model rigid). On a person skin moves with the sensors: then the axes that explain most of "
+        "the bending are found (model functional), and ready may mean ready for flexion only.\n"
+        "\n" COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] =
              {.help = "How to compute. stream (default): sums of moments, remembers everything, constant memory. "
@@ -56,6 +97,8 @@ static const command_line_t LINE = {
     .n_max_least = 20,
     .n_max_most = 10000,
     .bound_unit = BOUND_IN_DEG,
+    .own = OPTIONS,
+    .parse = parse,
     .settle = settle,
 };
 
@@ -64,18 +107,20 @@ static const command_line_t LINE = {
 typedef struct {
     calibrate_state_t base;
     union {
-        jcal_hinge_t stream;
+        jcal_hinge_auto_t stream;
         jcal_hinge_window_t window;
     } engine;
-    jcal_hinge_result_t result;
+    jcal_hinge_auto_result_t result;
 } hinge_run_t;
 
 static bool start(void *self, const void *options)
 {
     hinge_run_t *run = self;
-    const jcal_hinge_window_config_t *config = options;
+    const hinge_options_t *given = options;
+    const jcal_hinge_window_config_t *config = &given->config;
     if (run->base.engine == JCAL_ENGINE_STREAM) {
-        return jcal_hinge_init(&run->engine.stream, &config->hinge) == JCAL_OK;
+        const jcal_hinge_auto_config_t both = {config->hinge, given->max_flexion_rad};
+        return jcal_hinge_auto_init(&run->engine.stream, &both) == JCAL_OK;
     }
     const size_t bytes = jcal_hinge_window_storage_bytes(config);
     run->base.storage = malloc(bytes);
@@ -87,17 +132,32 @@ static bool push(void *self, const recording_row_t *row, uint64_t t_us)
 {
     hinge_run_t *run = self;
     const jcal_pair_t pair = {t_us, row->imu1, row->imu2};
-    return ((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_hinge_update(&run->engine.stream, &pair)
+    return ((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_hinge_auto_update(&run->engine.stream, &pair)
                                                      : jcal_hinge_window_update(&run->engine.window, &pair)) >= JCAL_OK;
+}
+
+jcal_hinge_auto_result_t hinge_of_rigid(const jcal_hinge_result_t *hinge)
+{
+    return (jcal_hinge_auto_result_t){
+        .hinge = *hinge,
+        .ready_for = (hinge->head.status == JCAL_READY) ? JCAL_FOR_AXES : JCAL_FOR_NOTHING,
+        .flexion_uncertainty_rad = BOUND_UNKNOWN_RAD,
+    };
 }
 
 static const jcal_head_t *get(void *self)
 {
     hinge_run_t *run = self;
+    jcal_hinge_auto_result_t *result = &run->result;
     /* The only error is a null pointer. */
-    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_hinge_get(&run->engine.stream, &run->result)
-                                                    : jcal_hinge_window_get(&run->engine.window, &run->result));
-    return &run->result.head;
+    if (run->base.engine == JCAL_ENGINE_STREAM) {
+        (void)jcal_hinge_auto_get(&run->engine.stream, result);
+    } else {
+        jcal_hinge_result_t hinge;
+        (void)jcal_hinge_window_get(&run->engine.window, &hinge);
+        *result = hinge_of_rigid(&hinge);
+    }
+    return &result->hinge.head;
 }
 
 /* ---- What is written ---- */
@@ -122,16 +182,27 @@ static report_axes_t axes_of(const jcal_hinge_result_t *result)
 
 static report_axes_t axes(const void *self)
 {
-    return axes_of(&((const hinge_run_t *)self)->result);
+    return axes_of(&((const hinge_run_t *)self)->result.hinge);
 }
 
-void hinge_write_keys(json_t *json, const jcal_hinge_result_t *result)
+void hinge_write_keys(json_t *json, const jcal_hinge_auto_result_t *result)
 {
-    const report_axes_t found = axes_of(result);
+    const jcal_hinge_result_t *hinge = &result->hinge;
+    const report_axes_t found = axes_of(hinge);
+    const bool known = result->flexion_uncertainty_rad < BOUND_UNKNOWN_RAD;
+    const float bounds[2] = {NAN, NAN};
     report_json_axes(json, &found);
-    json_number(json, "sign_margin", (result->sign_margin > 0.0f) ? result->sign_margin : NAN);
-    if (result->head.engine == JCAL_ENGINE_WINDOW) {
-        json_bool(json, "paper_accepted", result->paper_accepted);
+    json_number(json, "sign_margin", (hinge->sign_margin > 0.0f) ? hinge->sign_margin : NAN);
+    json_word(json, "model", hinge->has_axes ? jcal_model_string(result->model) : NULL);
+    json_word(json, "ready_for", jcal_ready_for_string(result->ready_for));
+    json_number(json, "flexion_uncertainty_deg", known ? DEG_PER_RAD * result->flexion_uncertainty_rad : NAN);
+    json_number(json, "heading_offset_deg", result->heading.known ? DEG_PER_RAD * result->heading.heading_rad : NAN);
+    report_json_vector(json, "joint_to_sensor1_m", result->has_levers, result->joint_to_sensor1_m);
+    report_json_vector(json, "joint_to_sensor2_m", result->has_levers, result->joint_to_sensor2_m);
+    json_numbers(json, "uncertainty_m", false, bounds, 2); /* of a hinge's centre nobody knows how far it is off yet */
+    json_number(json, "lag_s", NAN);
+    if (hinge->head.engine == JCAL_ENGINE_WINDOW) {
+        json_bool(json, "paper_accepted", hinge->paper_accepted);
     }
 }
 
@@ -150,16 +221,41 @@ static void print_pairing(FILE *file, float margin)
     }
 }
 
+/* Which model the axes are of, and what they are good for. */
+static void print_use(FILE *file, const jcal_hinge_auto_result_t *result)
+{
+    if (result->model != JCAL_MODEL_FUNCTIONAL) {
+        return;
+    }
+    report_print_words(
+        file, "model",
+        "functional: the segments are not rigid, as on a person; these are the axes that explain most of this motion");
+    if (result->bend_rad > 0.0f) {
+        (void)fprintf(file, "  %-18s by %.0f deg rms about its mean\n", "the joint bent",
+                      (double)(DEG_PER_RAD * result->bend_rad));
+    }
+    if (result->flexion_uncertainty_rad < BOUND_UNKNOWN_RAD) {
+        (void)fprintf(file, "  %-18s %.1f deg rms is what these axes make wrong in it\n", "flexion",
+                      (double)(DEG_PER_RAD * result->flexion_uncertainty_rad));
+    }
+    if (result->ready_for == JCAL_FOR_FLEXION) {
+        report_print_words(
+            file, "good for",
+            "flexion: 'jointcal angles --joint hinge' writes it; not for what needs the axes themselves");
+    }
+}
+
 static void print_summary(const void *self, FILE *file, const report_t *report)
 {
     const hinge_run_t *run = self;
     const report_axes_t found = axes(self);
     report_print_head(file, report);
     report_print_axes(file, &found);
-    print_pairing(file, run->result.sign_margin);
+    print_use(file, &run->result);
+    print_pairing(file, run->result.hinge.sign_margin);
     report_print_state(file, report);
     if (run->base.engine == JCAL_ENGINE_WINDOW) {
-        report_print_words(file, "paper's test", run->result.paper_accepted ? "accepted" : "not accepted");
+        report_print_words(file, "paper's test", run->result.hinge.paper_accepted ? "accepted" : "not accepted");
     }
     report_print_exit(file, report);
 }
@@ -179,7 +275,7 @@ static const calibrate_joint_t HINGE = {.words = &HINGE_WORDS,
 int hinge_command(int argc, char **argv)
 {
     common_options_t common = {0};
-    jcal_hinge_window_config_t config = jcal_hinge_window_config_default();
-    common_parse(&LINE, argc, argv, &common, &config);
-    return (int)calibrate(&common, &HINGE, &config);
+    hinge_options_t options = {.config = jcal_hinge_window_config_default()};
+    common_parse(&LINE, argc, argv, &common, &options);
+    return (int)calibrate(&common, &HINGE, &options);
 }

@@ -7,12 +7,15 @@
 #include "output/json.h"
 #include "output/report.h"
 
-#include "jointcal/hinge.h"
+#include "jointcal/hinge_auto.h"
 
 /// Words for a hinge.
 extern const report_words_t HINGE_WORDS;
 
+/// The result of a hinge that knows the rigid model only.
+jcal_hinge_auto_result_t hinge_of_rigid(const jcal_hinge_result_t *hinge);
+
 /// Writes the keys that only a hinge has.
-void hinge_write_keys(json_t *json, const jcal_hinge_result_t *result);
+void hinge_write_keys(json_t *json, const jcal_hinge_auto_result_t *result);
 
 #endif

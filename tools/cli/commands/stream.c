@@ -132,7 +132,7 @@ static void check_answered(session_t *session, uint64_t until)
 static void emit(void *context, const char *event, const message_estimate_t *estimate)
 {
     session_t *session = context;
-    report_t report = {.head = estimate->result.head,
+    report_t report = {.head = estimate->result.hinge.head,
                        .clock.has_time = estimate->now_us != MESSAGE_TIME_UNKNOWN,
                        .clock.t_us = (int64_t)(estimate->now_us - ORIGIN_US + (uint64_t)session->start_us)};
     check_answered(session, report.head.samples);
@@ -209,7 +209,8 @@ static exit_status_t finish(session_t *session)
     hub_session_tell_counters(&session->hub, session->options.counters);
     check_findings_t findings;
     check_findings(&session->check, &findings);
-    return (session->hub.estimate.result.head.status == JCAL_READY && !findings.refuses) ? EXIT_READY : EXIT_NOT_READY;
+    return (session->hub.estimate.result.hinge.head.status == JCAL_READY && !findings.refuses) ? EXIT_READY
+                                                                                               : EXIT_NOT_READY;
 }
 
 static exit_status_t run_rows(session_t *session)

@@ -16,6 +16,43 @@
 #define BRIDGE_US 150000
 #define USUAL_PERIOD_US 10000
 
+/* What the gate says of a row; true if a filter may have it. */
+static bool is_fed(orientations_t *self, oriented_row_t *out)
+{
+    const recording_row_t *row = &out->row;
+    jcal_pair_t pair = {row_clock_advance(&self->clock, row), row->imu1, row->imu2};
+    if (!row->has_time) {
+        /* The library's time has no NaN; the sample has. */
+        pair.imu1.gyr_rad_s.x = NAN;
+    }
+    out->reject = jcal_gate_check(&self->gate, &self->gate_config, &pair);
+    if (self->recording->want_third) {
+        const jcal_pair_t other = {pair.t_us, pair.imu1, row->imu3};
+        const jcal_reject_t third = jcal_gate_check(&self->gate3, &self->gate_config, &other);
+        out->reject = (third < out->reject) ? third : out->reject;
+    }
+    return out->reject == JCAL_REJECT_NONE || out->reject == JCAL_REJECT_SATURATED ||
+           out->reject == JCAL_REJECT_REPEATED || out->reject == JCAL_REJECT_GAP;
+}
+
+/* A restart is told with the first row after it that is of use. */
+static void tell_restart(orientations_t *self, oriented_row_t *out)
+{
+    out->restarted = self->restart_due && out->reject == JCAL_REJECT_NONE;
+    self->restart_due = self->restart_due && !out->restarted;
+}
+
+/* A row for an engine that has filters of its own: holes are looked for as with a filter. */
+static void pass_row(orientations_t *self, oriented_row_t *out)
+{
+    if (is_fed(self, out)) {
+        self->restart_due = self->restart_due || (self->has_fed && out->row.t_us - self->fed_us > BRIDGE_US);
+        self->has_fed = true;
+        self->fed_us = out->row.t_us;
+    }
+    tell_restart(self, out);
+}
+
 #ifdef JOINTCAL_HAS_VQF
 
 struct orientations_filter {
@@ -104,27 +141,13 @@ static void feed_row(orientations_t *self, const recording_row_t *row)
 static void filter_row(orientations_t *self, oriented_row_t *out)
 {
     recording_row_t *row = &out->row;
-    jcal_pair_t pair = {row_clock_advance(&self->clock, row), row->imu1, row->imu2};
-    if (!row->has_time) {
-        /* The library's time has no NaN; the sample has. */
-        pair.imu1.gyr_rad_s.x = NAN;
-    }
-    out->reject = jcal_gate_check(&self->gate, &self->gate_config, &pair);
-    if (self->recording->want_third) {
-        const jcal_pair_t other = {pair.t_us, pair.imu1, row->imu3};
-        const jcal_reject_t third = jcal_gate_check(&self->gate3, &self->gate_config, &other);
-        out->reject = (third < out->reject) ? third : out->reject;
-    }
-    const bool is_fed = out->reject == JCAL_REJECT_NONE || out->reject == JCAL_REJECT_SATURATED ||
-                        out->reject == JCAL_REJECT_REPEATED || out->reject == JCAL_REJECT_GAP;
-    if (is_fed) {
+    if (is_fed(self, out)) {
         feed_row(self, row);
         row->q1 = self->filters[0].q;
         row->q2 = self->filters[1].q;
         row->q3 = self->filters[2].q;
     }
-    out->restarted = self->restart_due && out->reject == JCAL_REJECT_NONE;
-    self->restart_due = self->restart_due && !out->restarted;
+    tell_restart(self, out);
 }
 
 static recording_event_t open_filters(orientations_t *self)
@@ -201,7 +224,7 @@ static void check_row(orientations_t *self, oriented_row_t *out)
     self->missing_share += MISSING_STEP * ((finite ? 0.0f : 1.0f) - self->missing_share);
 }
 
-recording_event_t orientations_open(orientations_t *self, recording_t *recording)
+recording_event_t orientations_open(orientations_t *self, recording_t *recording, bool joint_has_own)
 {
     memset(self, 0, sizeof *self);
     self->recording = recording;
@@ -213,8 +236,12 @@ recording_event_t orientations_open(orientations_t *self, recording_t *recording
         return event;
     }
     recording->want_orientations = recording->has_orientations;
-    self->source = recording->has_orientations ? ORIENTATIONS_FROM_COLUMNS : ORIENTATIONS_FROM_FILTER;
-    return recording->has_orientations ? RECORDING_ROW : open_filters(self);
+    if (recording->has_orientations) {
+        self->source = ORIENTATIONS_FROM_COLUMNS;
+        return RECORDING_ROW;
+    }
+    self->source = joint_has_own ? ORIENTATIONS_FROM_JOINT : ORIENTATIONS_FROM_FILTER;
+    return joint_has_own ? RECORDING_ROW : open_filters(self);
 }
 
 /* The next row of those that waited, else of the recording. */
@@ -233,6 +260,13 @@ recording_event_t orientations_next(orientations_t *self, oriented_row_t *row)
     if (self->source == ORIENTATIONS_FROM_COLUMNS) {
         const recording_event_t event = recording_next(self->recording, &row->row);
         check_row(self, row);
+        return event;
+    }
+    if (self->source == ORIENTATIONS_FROM_JOINT) {
+        const recording_event_t event = recording_next(self->recording, &row->row);
+        if (event == RECORDING_ROW) {
+            pass_row(self, row);
+        }
         return event;
     }
     if (!self->waited) {
@@ -259,8 +293,15 @@ jcal_reason_t orientations_complaint(const orientations_t *self)
 
 const char *orientations_words(const orientations_t *self)
 {
-    return (self->source == ORIENTATIONS_FROM_COLUMNS) ? "columns q1_w ... q2_z of the recording"
-                                                       : "computed from rates and specific forces by VQF";
+    switch (self->source) {
+    case ORIENTATIONS_FROM_COLUMNS:
+        return "columns q1_w ... q2_z of the recording";
+    case ORIENTATIONS_FROM_JOINT:
+        return "computed from rates and specific forces";
+    case ORIENTATIONS_FROM_FILTER:
+    default:
+        return "computed from rates and specific forces by VQF";
+    }
 }
 
 void orientations_close(orientations_t *self)

@@ -29,7 +29,11 @@
 #define ORIENTATIONS_SENSORS 3
 
 /// Where orientations come from.
-typedef enum { ORIENTATIONS_FROM_COLUMNS, ORIENTATIONS_FROM_FILTER } orientations_source_t;
+typedef enum {
+    ORIENTATIONS_FROM_COLUMNS,
+    ORIENTATIONS_FROM_FILTER,
+    ORIENTATIONS_FROM_JOINT  ///< The joint's engine has filters of its own: rows come without, `reject` as with a filter.
+} orientations_source_t;
 
 /// A row with its orientations.
 typedef struct {
@@ -63,9 +67,9 @@ typedef struct {
     bool waited;
 } orientations_t;
 
-/// Prepares for a recording that has been opened. RECORDING_ROW; RECORDING_BAD with the recording's fault set (a sensor has only some
+/// Prepares for a recording that has been opened. Where there are no columns VQF computes orientations, unless `joint_has_own`. RECORDING_ROW; RECORDING_BAD with the recording's fault set (a sensor has only some
 /// of its columns; or there are none, and the program was built without the filter); RECORDING_FAILED if memory ran out.
-recording_event_t orientations_open(orientations_t *self, recording_t *recording);
+recording_event_t orientations_open(orientations_t *self, recording_t *recording, bool joint_has_own);
 
 /// Next row, as recording_next, which must not be called any more.
 recording_event_t orientations_next(orientations_t *self, oriented_row_t *row);

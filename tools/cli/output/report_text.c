@@ -101,6 +101,15 @@ const char *report_reason(const report_t *report)
         return "accelerations are too small; m/s^2 are needed, with gravity in them: a sensor at rest reads 9.81";
     case JCAL_REASON_RATE_TOO_LOW:
         return "fewer than 10 samples a second: a joint turns too far from one to the next";
+    case JCAL_REASON_GRAVITY_OFF:
+        return "one of the sensors does not feel 9.81 m/s^2 on the whole: its accelerometer is scaled wrongly, clips or has an offset";
+    case JCAL_REASON_NOT_ONE_JOINT:
+        return "the accelerations of the two sensors do not belong to one joint: another pair of sensors, readings that are not of one "
+               "time, or accelerometers whose axes are not those of their gyroscopes";
+    case JCAL_REASON_NO_BEND:
+        return "the segments move, but the joint between them hardly bends";
+    case JCAL_REASON_MORE_AXES:
+        return "the joint turns about more than one axis; of one that has two, as an elbow, 'jointcal two-dof' finds both";
     case JCAL_REASON_NONE:
     default:
         return NULL;
@@ -122,6 +131,8 @@ const char *report_help(const report_t *report)
         return "check units, range, mounting and pairing of the sensors; more motion will not help";
     case JCAL_HINT_MORE_DIRECTIONS:
         return "turn both segments about other axes too; the axis of a hinge always stays open, see --calibration";
+    case JCAL_HINT_MOVE_FASTER:
+        return "move faster and further, so that the joint itself is accelerated, as in walking";
     case JCAL_HINT_NONE:
     default:
         return NULL;

@@ -8,6 +8,16 @@
 /* Memory of the heading unless --window says otherwise, s. */
 #define MEMORY_S 10.0f
 
+/* The bound of a person's angle: at rest, rad; for each rad that the angle spreads and each rad/s of both sensors together, over MOTION_S;
+ * for each m/s^2 that gravity is felt wrongly. USUAL_FLEXION_RAD is what calibrations made wrong on which these were found. */
+#define MOTION_S 3.0f
+#define TURN_RAD 6.2831853f
+#define STILL_RAD 0.0087f
+#define PER_SPREAD 0.04f
+#define PER_RATE_S 0.0122f
+#define PER_GRAVITY 0.03f
+#define USUAL_FLEXION_RAD 0.0105f
+
 /* The sign that an axis had before, or the one that the command line asks for. */
 static jcal_vec3_t settle_sign(jcal_vec3_t axis, bool has_before, jcal_vec3_t before, bool has_toward,
                                jcal_vec3_t toward)
@@ -37,6 +47,50 @@ static void set_axes(angle_source_t *source, jcal_vec3_t axis1, jcal_vec3_t axis
     joint->known = true;
 }
 
+/* Time since the row before, s; 0 where there is none or time went back. */
+static float step_s(angle_motion_t *motion, uint64_t t_us)
+{
+    const bool forward = motion->has_last && t_us > motion->last_us;
+    const float dt_s = forward ? 1e-6f * (float)(t_us - motion->last_us) : 0.0f;
+    motion->has_last = true;
+    motion->last_us = t_us;
+    return fminf(dt_s, 1.0f);
+}
+
+/* Takes in the motion of a row: rates of both sensors and the angle, over the last seconds. */
+static void follow_motion(angle_motion_t *motion, const recording_row_t *row, float dt_s)
+{
+    const float share = dt_s / (dt_s + MOTION_S);
+    const jcal_vec3_t w1 = row->imu1.gyr_rad_s;
+    const jcal_vec3_t w2 = row->imu2.gyr_rad_s;
+    const float rate2 = jcal_vec3_dot(w1, w1) + jcal_vec3_dot(w2, w2);
+    if (isfinite(rate2) && share > 0.0f) {
+        motion->rate2 += share * (rate2 - motion->rate2);
+    }
+}
+
+/* Takes in an angle that was written. */
+static void follow_angle(angle_motion_t *motion, float angle_rad, float dt_s)
+{
+    const float off = remainderf(angle_rad - motion->mean_rad, TURN_RAD); /* angles of one turn are one */
+    const float share = motion->has_angle ? dt_s / (dt_s + MOTION_S) : 1.0f;
+    motion->mean_rad += share * off;
+    motion->spread2 += share * ((off * off * (motion->has_angle ? 1.0f : 0.0f)) - motion->spread2);
+    motion->has_angle = true;
+}
+
+/* How far an angle may be off, its zero apart. Of rigid segments: as far as the axes. Of people: skin and inclination make an error that
+ * grows with the motion of the moment, docs/METHOD_PEOPLE.md section 7; more where the calibration is poor or gravity is felt wrongly. */
+static float angle_bound(const jcal_hinge_auto_result_t *result, const angle_motion_t *motion)
+{
+    if (result->model == JCAL_MODEL_RIGID && result->ready_for == JCAL_FOR_AXES) {
+        return fmaxf(result->hinge.uncertainty1_rad, result->hinge.uncertainty2_rad);
+    }
+    const float poor = fmaxf(1.0f, result->flexion_uncertainty_rad / USUAL_FLEXION_RAD);
+    const float moving = (PER_SPREAD * sqrtf(motion->spread2)) + (PER_RATE_S * sqrtf(motion->rate2));
+    return STILL_RAD + (poor * moving) + (PER_GRAVITY * result->gravity_off_m_s2);
+}
+
 static bool is_accepted(const angle_source_t *source, bool has_axes)
 {
     return source->head.status == JCAL_READY || (source->config.accept_best && has_axes);
@@ -46,20 +100,24 @@ static bool is_accepted(const angle_source_t *source, bool has_axes)
 static bool update_engine(angle_source_t *source, const recording_row_t *row,
                           const jcal_orientation_pair_t *orientations)
 {
-    source->joint.known = false;
+    source->joint.known = source->given;
     if (source->config.hinge) {
         jcal_pair_t pair = {orientations->t_us, row->imu1, row->imu2};
         if (!row->has_time) {
             pair.imu1.gyr_rad_s.x = NAN;
         }
-        jcal_hinge_result_t result;
-        if (jcal_hinge_update(&source->hinge, &pair) < 0 || jcal_hinge_get(&source->hinge, &result) != JCAL_OK) {
+        jcal_hinge_auto_result_t result;
+        if (jcal_hinge_auto_update(&source->hinge, &pair) < 0 ||
+            jcal_hinge_auto_get(&source->hinge, &result) != JCAL_OK) {
             return false;
         }
-        source->head = result.head;
-        if (is_accepted(source, result.has_axes)) {
-            set_axes(source, result.axis1, result.axis2, 0.0f);
-            source->joint.bound_rad = fmaxf(result.uncertainty1_rad, result.uncertainty2_rad);
+        const jcal_hinge_result_t *hinge = &result.hinge;
+        source->head = hinge->head;
+        source->own_heading = result.heading;
+        if (!source->given && is_accepted(source, hinge->has_axes)) {
+            set_axes(source, hinge->axis1, hinge->axis2, 0.0f);
+            source->sign = (jcal_vec3_dot(source->joint.axis1, hinge->axis1) < 0.0f) ? -1.0f : 1.0f;
+            source->joint.bound_rad = angle_bound(&result, &source->motion);
         }
         return true;
     }
@@ -85,6 +143,10 @@ static bool update_heading(angle_source_t *source, const jcal_orientation_pair_t
     const bool hinge = source->config.hinge;
     const float memory_s = (source->config.window_s > 0.0f) ? source->config.window_s : MEMORY_S;
     *heading = (jcal_heading_t){joint->heading_rad, joint->known};
+    if (source->config.own_orientations && !source->given) {
+        *heading = (jcal_heading_t){source->own_heading.heading_rad, joint->known && source->own_heading.known};
+        return true;
+    }
     if (!joint->known || (!hinge && !source->given)) {
         return true;
     }
@@ -107,6 +169,11 @@ static bool compute(const angle_source_t *source, const jcal_orientation_pair_t 
                     jcal_joint_angles_t *angles)
 {
     const angle_joint_t *joint = &source->joint;
+    if (source->config.own_orientations &&
+        !source->given) { /* the engine keeps the zero where it is while the axes improve */
+        *angles = (jcal_joint_angles_t){.flexion_rad = source->sign * jcal_hinge_auto_flexion(&source->hinge)};
+        return true;
+    }
     jcal_joint_frames_t frames;
     const bool hinge = source->config.hinge;
     const jcal_status_t status = hinge ? jcal_frames_hinge(joint->axis1, joint->axis2, &frames)
@@ -131,11 +198,11 @@ bool angle_source_start(angle_source_t *source, const angle_source_config_t *con
     source->config = *config;
     source->given = calibration != NULL;
     source->gate_config = jcal_gate_config_default();
-    jcal_hinge_config_t hinge = jcal_hinge_config_default();
+    jcal_hinge_auto_config_t hinge = jcal_hinge_auto_config_default();
     jcal_two_dof_config_t two_dof = jcal_two_dof_config_default();
-    hinge.sign_hint = config->sign_hint;
+    hinge.hinge.sign_hint = config->sign_hint;
     if (config->max_bound_rad > 0.0f) {
-        hinge.max_bound_rad = config->max_bound_rad;
+        hinge.hinge.max_bound_rad = config->max_bound_rad;
         two_dof.max_bound_rad = config->max_bound_rad;
     }
     if (config->window_s > 0.0f) {
@@ -144,7 +211,7 @@ bool angle_source_start(angle_source_t *source, const angle_source_config_t *con
     if (calibration != NULL) {
         set_axes(source, calibration->axis1, calibration->axis2, calibration->carrying_angle_rad);
     }
-    return jcal_hinge_init(&source->hinge, &hinge) == JCAL_OK &&
+    return jcal_hinge_auto_init(&source->hinge, &hinge) == JCAL_OK &&
            jcal_two_dof_init(&source->two_dof, &two_dof) == JCAL_OK;
 }
 
@@ -171,6 +238,7 @@ bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, bo
 {
     const recording_row_t *row = &oriented->row;
     jcal_orientation_pair_t orientations = {row_clock_advance(&source->clock, row), row->q1, row->q2};
+    const bool runs = !source->given || source->config.own_orientations;
     if (!row->has_time || oriented->reject != JCAL_REJECT_NONE) {
         orientations.q1.w = NAN; /* the library's time has no NaN; the sample has */
     }
@@ -179,12 +247,21 @@ bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, bo
         source->has_follower = false;
     }
     *out = (angles_row_t){.t_us = row->t_us, .has_time = row->has_time};
-    const bool usable = is_usable(jcal_orientation_gate_check(&source->gate, &source->gate_config, &orientations));
-    if (!source->given && !update_engine(source, row, &orientations)) {
+    const float dt_s = step_s(&source->motion, orientations.t_us);
+    follow_motion(&source->motion, row, dt_s);
+    if (runs && !update_engine(source, row, &orientations)) {
         return false;
     }
+    if (source->config.own_orientations && oriented->reject == JCAL_REJECT_NONE) {
+        orientations.q1 = jcal_hinge_auto_orientation(&source->hinge, 1);
+        orientations.q2 = jcal_hinge_auto_orientation(&source->hinge, 2);
+    }
+    const bool usable = is_usable(jcal_orientation_gate_check(&source->gate, &source->gate_config, &orientations));
     if (usable && !angles_of(source, &orientations, out)) {
         return false;
+    }
+    if (out->known) {
+        follow_angle(&source->motion, out->angles.flexion_rad, dt_s);
     }
     if (refused && !source->config.accept_best) {
         out->known = false;

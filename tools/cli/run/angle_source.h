@@ -18,6 +18,7 @@ typedef struct {
     bool accept_best;              ///< Take the best estimate, whatever its status.
     float window_s;                ///< Memory of the heading; 0 for the default.
     float max_bound_rad;           ///< 0 for the default.
+    bool own_orientations;         ///< Rows come without: the hinge's own are taken.
     jcal_sign_hint_t sign_hint;
 } angle_source_config_t;
 
@@ -30,6 +31,15 @@ typedef struct {
     float heading_rad; /* of the engine; a follower has its own */
 } angle_joint_t;
 
+/// How a joint moved over the last seconds.
+typedef struct {
+    float rate2;    /* both squared rates, (rad/s)^2 */
+    float mean_rad; /* of the angle */
+    float spread2;  /* its variance, rad^2 */
+    uint64_t last_us;
+    bool has_last, has_angle;
+} angle_motion_t;
+
 typedef struct {
     bool at_end;       ///< The last row whose orientations were of use had angles.
     uint64_t rows;     ///< Rows with angles.
@@ -38,11 +48,14 @@ typedef struct {
     /* Private. */
     angle_source_config_t config;
     bool given; /* the calibration is; else the engines find it */
-    jcal_hinge_t hinge;
+    jcal_hinge_auto_t hinge;
     jcal_two_dof_t two_dof;
     jcal_orientation_gate_t gate;
     jcal_gate_config_t gate_config;
     angle_joint_t joint;
+    jcal_heading_t own_heading;
+    angle_motion_t motion;
+    float sign; /* of the axes that are written here against those of the engine */
     jcal_joint_heading_t follower;
     bool has_follower;
     row_clock_t clock;

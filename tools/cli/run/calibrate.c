@@ -221,7 +221,7 @@ static recording_event_t prepare(session_t *session)
     if (event != RECORDING_ROW || !session->self->oriented) {
         return event;
     }
-    const recording_event_t opened = orientations_open(&session->orientations, recording);
+    const recording_event_t opened = orientations_open(&session->orientations, recording, false);
     session->report.orientations = orientations_words(&session->orientations);
     recording->check.times_only =
         session->orientations.source == ORIENTATIONS_FROM_COLUMNS && !session->joint->uses_readings;

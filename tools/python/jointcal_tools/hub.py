@@ -6,7 +6,7 @@ import struct
 import zlib
 from dataclasses import dataclass
 
-VERSION = 1
+VERSION = 2
 START, SAMPLE, REQUEST = 0x01, 0x02, 0x03
 HELLO, ESTIMATE, COUNTERS, CREDIT = 0x81, 0x82, 0x83, 0x84
 REJECTS = ("not_finite", "out_of_range", "saturated", "frozen", "repeated", "time_order", "gap")
@@ -65,10 +65,11 @@ def sample(t_us: int, values) -> bytes:
 
 
 def estimate(payload: bytes) -> dict:
-    v = struct.unpack("<BIQ6B12fQI7I", payload)
+    v = struct.unpack("<BIQ8B20fQI7I", payload)
     return {"events": v[0], "token": v[1], "now_us": v[2], "status": v[3], "weak": v[5], "hint": v[6], "reason": v[7],
-            "has_axes": bool(v[8] & 1), "axis1": v[9:12], "axis2": v[12:15], "uncertainty_rad": v[15:17],
-            "t_us": v[21], "samples": v[22], "rejected_by": dict(zip(REJECTS, v[23:30]))}
+            "has_axes": bool(v[8] & 1), "model": v[9], "ready_for": v[10], "axis1": v[11:14], "axis2": v[14:17],
+            "uncertainty_rad": v[17:19], "flexion_uncertainty_rad": v[23], "heading_rad": v[24], "joint_to_sensor1_m": v[25:28],
+            "joint_to_sensor2_m": v[28:31], "t_us": v[31], "samples": v[32], "rejected_by": dict(zip(REJECTS, v[33:40]))}
 
 
 def counters(payload: bytes) -> dict:

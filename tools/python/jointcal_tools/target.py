@@ -86,6 +86,18 @@ def vqf(rows: list[list[float]], sensor: int, period_s: float) -> list[tuple[flo
     return [tuple(out[4 * k:4 * k + 4]) for k in range(len(rows))]
 
 
+def readings_file(recording: Path, rate_hz: float | None = None, seconds: float = 60.0, jitter_us: int = 0) -> Path:
+    """As samples_file, of sensor 2 alone, as jcal_reading_t. Times off by up to jitter_us: no two distances are the same."""
+    folder = WORK / "readings" / (recording.stem + (f"_{rate_hz:g}hz" if rate_hz else "") + (f"_{jitter_us}us" if jitter_us else ""))
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = rows_of(recording, "2")
+    rows = resampled(rows, rate_hz, seconds) if rate_hz else rows
+    part = folder / f"samples.{os.getpid()}"
+    part.write_bytes(b"".join(struct.pack("<Q6f", round(row[0] * 1e6) + (k * k * 7919) % (jitter_us + 1), *row[1:])
+                              for k, row in enumerate(rows)))
+    return part.replace(folder / "samples.bin")
+
+
 def triples_file(recording: Path, rate_hz: float | None = None, seconds: float = 60.0) -> Path:
     """As samples_file, of three sensors."""
     return samples_file(recording, rate_hz, seconds, THREE_SENSORS)
@@ -154,7 +166,7 @@ def build_plugin() -> Path:
 
 
 def run(platform: Platform, image: Path, samples: Path, plugin: Path | None = None, out: Path | None = None) -> dict:
-    """What the replay program printed: samples, hash, state, stack."""
+    """What the replay program printed: samples, hash, state, stack, samples before the first that was ready, slices (if shown)."""
     command = [str(image)]
     if platform.cpu:
         command = ["qemu-system-arm", "-M", platform.machine, "-display", "none", "-monitor", "none", "-serial", "none",
@@ -164,7 +176,8 @@ def run(platform: Platform, image: Path, samples: Path, plugin: Path | None = No
             command += ["-plugin", f"{plugin},out={out}"]
     done = subprocess.run(command, cwd=samples.parent, stdin=subprocess.DEVNULL, capture_output=True, text=True,
                           timeout=QEMU_SECONDS, check=False)
-    match = re.search(r"samples (\d+) hash (\w+) state (\d+) stack (\d+)", done.stdout)
+    match = re.search(r"samples (\d+) hash (\w+) state (\d+) stack (\d+) before_ready (\d+)", done.stdout)
     if done.returncode != 0 or not match:
         raise RuntimeError(f"{image.name} on {platform.name}: exit {done.returncode}: {done.stdout}{done.stderr}")
-    return {"samples": int(match[1]), "hash": match[2], "state": int(match[3]), "stack": int(match[4])}
+    return {"samples": int(match[1]), "hash": match[2], "state": int(match[3]), "stack": int(match[4]),
+            "before_ready": int(match[5]), "slices": [int(slice_) for slice_ in re.findall(r"slice (\d+)", done.stdout)]}

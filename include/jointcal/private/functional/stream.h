@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// State of the functional joint. Nothing here is for the user to touch.
+#ifndef JCAL_PRIVATE_FUNCTIONAL_STREAM_H
+#define JCAL_PRIVATE_FUNCTIONAL_STREAM_H
+
+#include "jointcal/functional_config.h"
+#include "jointcal/private/functional/point.h"
+#include "jointcal/private/functional/sums.h"
+#include "jointcal/private/functional/verdict.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/// Other headings that are tried.
+typedef struct {
+    jcal_functional_point_t trial;  ///< The one on its way; between trials, the other pairing.
+    uint8_t turn;                   ///< Number of the heading, and of the axes that it begins with.
+    uint8_t tried;                  ///< How many were tried, at most 255.
+    bool has_estimate;              ///< One was taken.
+} jcal_functional_search_t;
+
+/// The heading of this moment, for the angle.
+typedef struct {
+    jcal_plane_t sum;             ///< What the last seconds say, fading.
+    jcal_plane_t heading;         ///< L2 to L1.
+    float recent[JCAL_FAMILIES];  ///< Squared residuals of the last 1.5 s of motion beside their usual sizes.
+    uint8_t zero[2];              ///< The axis of each sensor that the angle's zero is taken from.
+    bool known;
+} jcal_functional_track_t;
+
+/// The functional joint. Caller-owned, plain, copyable at any time between calls; all members are private.
+typedef struct {
+    jcal_functional_config_t cfg;
+    jcal_functional_sums_t sums;
+    jcal_functional_point_t point;  ///< The estimate.
+    jcal_functional_search_t search;
+    jcal_functional_verdict_t verdict;
+    jcal_functional_track_t track;
+    uint64_t last_us;   ///< Time of the last tick.
+    float rate2;        ///< Both squared rates, smoothed, (rad/s)^2.
+    float motion_s;     ///< Motion since the beginning, s.
+    float since_s;      ///< Time since the last judgement began, s.
+    float credit;       ///< Slices that are paid for.
+    float gravity_off;  ///< How far the specific forces' medians are from gravity, m/s^2; the larger of both sensors.
+    uint32_t ticks;
+    uint32_t epoch1, epoch2;
+    uint8_t slice;  ///< Next slice of the judgement.
+    int8_t kept_sign[2];
+    bool merged;  ///< A block was merged: headings cannot be begun anew any more.
+    bool has_tick;
+} jcal_functional_t;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* JCAL_PRIVATE_FUNCTIONAL_STREAM_H */
