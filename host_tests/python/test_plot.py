@@ -413,6 +413,24 @@ class Angles(Folder):
         self.assertEqual([text.get_text() for text in figure.axes[0].get_legend().get_texts()],
                          ["flexion less 7.0 deg", "reference (ref_flexion_deg)"])
 
+    def test_a_reference_that_counts_the_other_way(self):
+        path, _ = self.files()
+        t_s = np.arange(1000) / self.rate_hz
+        turned = self.write("turned.csv", "t_s,ref_flexion_deg\n" + "".join(f"{t:.4f},{7.0 - self.angle(t):.6f}\n" for t in t_s))
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            angles.read_angles(path, [], (turned, []), ALL_TIME, False)
+        self.assertIn("count in opposite directions: --negate-reference turns the reference", said.getvalue())
+        said = io.StringIO()
+        with contextlib.redirect_stderr(said):
+            read = angles.read_angles(path, [], (turned, []), ALL_TIME, False, True)
+            angles.read_angles(path, [], (self.files()[1], []), ALL_TIME, False)
+        self.assertNotIn("opposite", said.getvalue())
+        self.assertAlmostEqual(read.difference.mean(0), 7.0, delta=1e-3)
+        self.assertLess(read.difference.rms(0, 7.0), 1e-3)
+        figure = angles.draw_angles(read, "", STYLES["single"])
+        self.assertIn("reference (-ref_flexion_deg)", [text.get_text() for text in figure.axes[0].get_legend().get_texts()])
+
     def test_a_gap_of_the_reference_is_not_bridged(self):
         path, reference = self.files(gap=(8.0, 11.0))
         read = angles.read_angles(path, [], (reference, []), ALL_TIME, False)

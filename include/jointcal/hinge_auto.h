@@ -17,7 +17,7 @@
 ///     (void)jcal_hinge_auto_get(&knee, &result);                   whenever you like
 ///     if (result.ready_for != JCAL_FOR_NOTHING) { ... jcal_hinge_auto_flexion(&knee) ... }
 ///
-/// Units and frames: types.h. Cost: 7.3 KiB of state; docs/measurements/budget.md has the instructions of both parts. Where one sensor
+/// Units and frames: types.h. Cost: 6.2 KiB of state; docs/measurements/budget.md has the instructions of both parts. Where one sensor
 /// serves two joints, or work must be spread finer, use sensor.h, functional.h and hinge.h themselves.
 #ifndef JCAL_HINGE_AUTO_H
 #define JCAL_HINGE_AUTO_H

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -21,6 +22,7 @@ TIMES = ("t_s", "time")
 NO_ANGLES = ("heading_offset", "bound")  # written beside angles
 TURN_DEG = 360.0
 GAP_STEPS = 3.0  # between rows that are further apart than so many usual steps there is no reference
+OPPOSITE_SHARE = 0.5  # of the spread of the difference, below which that of the sum shows opposite signs
 PANEL_MM = {"wide": 70.0, "double": 42.0, "single": 38.0}
 
 
@@ -103,17 +105,17 @@ class Unwrapper:
 class Series:
     """Columns over time in a file, whole turns taken out, a bounded part of it held."""
 
-    def __init__(self, table: Table, columns: Sequence[str], clock: Clock, progress: bool):
+    def __init__(self, table: Table, columns: Sequence[str], clock: Clock, progress: bool, sign: float = 1.0):
         names = list(dict.fromkeys([time_of(table), *columns]))
         at = [names.index(name) for name in columns]
         self.clock, self.curves = clock, Reducer(len(columns))
         self.table = table
-        self._parts = self._read(table, names, at, progress)
+        self._parts = self._read(table, names, at, progress, sign)
         self._held = (np.empty(0), np.empty((0, len(columns))))
 
-    def _read(self, table: Table, names: list[str], at: list[int], progress: bool) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    def _read(self, table: Table, names: list[str], at: list[int], progress: bool, sign: float) -> Iterator[tuple[np.ndarray, np.ndarray]]:
         unwrapped = Unwrapper(len(at))
-        factor = 1.0 if table.degrees else np.degrees(1.0)
+        factor = sign * (1.0 if table.degrees else np.degrees(1.0))
         for piece in table.pieces(names, progress):
             rows = self.clock.use(piece[:, 0])
             values = unwrapped(factor * piece[np.ix_(rows, at)])
@@ -185,6 +187,7 @@ class Angles:
     references: dict[int, str]  # angle to its column
     difference: Difference
     shifts: list[float]  # taken off each angle, deg
+    negated: bool = False  # the reference
     good_to: GoodTo | None = None
 
     def where(self, k: int) -> int:
@@ -193,8 +196,9 @@ class Angles:
 
 
 def read_angles(path: Path, columns: Sequence[str], reference: tuple[Path | None, Sequence[str]], part_s: tuple[float, float],
-                zero: bool) -> Angles:
-    """A reference is looked for in the file given, else beside the angles in their own."""
+                zero: bool, negate: bool = False) -> Angles:
+    """A reference is looked for in the file given, else beside the angles in their own. zero: mean differences are taken off; negate:
+    the reference changes its sign."""
     table = Table(path)
     names = angle_columns(table, columns)
     reference_table = Table(reference[0]) if reference[0] else table
@@ -203,11 +207,13 @@ def read_angles(path: Path, columns: Sequence[str], reference: tuple[Path | None
         raise RefusedError(reference[0], "no column such as ref_flexion_deg; name it with --reference-column",
                            reference_table.header_line)
     series = Series(table, names, Clock(*part_s), True)
-    beside = Series(reference_table, list(references.values()), Clock(*part_s), False) if references else None
-    difference = Difference(len(references))
+    beside = Series(reference_table, list(references.values()), Clock(*part_s), False, -1.0 if negate else 1.0) if references else None
+    difference, total = Difference(len(references)), Difference(len(references))
     for t_s, values in series:
         if beside:
-            difference.add(t_s, values[:, list(references)] - beside.at(t_s))
+            truth = beside.at(t_s)
+            difference.add(t_s, values[:, list(references)] - truth)
+            total.add(t_s, values[:, list(references)] + truth)
     if np.isnan(series.clock.begin_s):
         raise series.clock.none_used(path, "row")
     for curves in (series, beside):
@@ -221,7 +227,16 @@ def read_angles(path: Path, columns: Sequence[str], reference: tuple[Path | None
         mean = difference.mean(column)
         if np.isfinite(mean):  # whole turns mean nothing
             shifts[k] = mean if zero else TURN_DEG * round(mean / TURN_DEG)
-    return Angles(names, series, beside, references, difference, shifts)
+        if runs_against(difference, total, column):
+            print(f"{path}: {names[k]} and its reference, {references[k]}, count in opposite directions: --negate-reference turns the reference",
+                  file=sys.stderr)
+    return Angles(names, series, beside, references, difference, shifts, negated=negate)
+
+
+def runs_against(difference: Difference, total: Difference, column: int) -> bool:
+    """True if an angle and its reference make one curve when their signs differ."""
+    spreads = [of.rms(column, of.mean(column)) for of in (difference, total) if np.isfinite(of.mean(column))]
+    return len(spreads) == 2 and spreads[1] < OPPOSITE_SHARE * spreads[0]
 
 
 def told_angles_good_to(path: Path) -> GoodTo | None:
@@ -247,7 +262,7 @@ def draw_angle(panel: Axes, angles: Angles, k: int, style: Style) -> None:
         t_s, truth = angles.reference.curves.trace(angles.where(k))
         panel.plot(t_s, truth, color="black", linewidth=2.2 * style.scale, zorder=2.1)
         if np.isfinite(truth).any():
-            handles.append(line_handle(style, f"reference ({angles.references[k]})", color="black", linewidth=2.2 * style.scale))
+            handles.append(line_handle(style, f"reference ({'-' if angles.negated else ''}{angles.references[k]})", color="black", linewidth=2.2 * style.scale))
     if not handles:
         draw_empty(panel, nothing, style)
         return

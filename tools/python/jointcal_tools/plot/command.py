@@ -85,6 +85,9 @@ def make_parser() -> argparse.ArgumentParser:
     angles.add_argument("--zero-to-reference", action="store_true", help="take the mean difference off each angle: where zero is, "
                         "is the mounting's choice; the legend says how much")
 
+    angles.add_argument("--negate-reference", action="store_true", help="turn the reference's sign: which way counts as bending, is a "
+                        "convention (jointcal's is that of axis 1, see --axis1-toward)")
+
     paper = parser.add_argument_group("for a paper")
     paper.add_argument("--title", help="text above the figure; \"\" for none (default: file, joint, engine, status)")
     paper.add_argument("--column", choices=["single", "double"], help="88 or 180 mm wide, 8 point font, 300 dots per inch")
@@ -98,7 +101,7 @@ def make_parser() -> argparse.ArgumentParser:
 def check_options(args: argparse.Namespace) -> None:
     """Options that would change nothing are mistakes."""
     is_angles = args.joint == "angles"
-    wrong = ("truth", "jsonl", "max_bound") if is_angles else ("angles", "reference", "reference_column", "zero_to_reference")
+    wrong = ("truth", "jsonl", "max_bound") if is_angles else ("angles", "reference", "reference_column", "zero_to_reference", "negate_reference")
     for name in wrong:
         if getattr(args, name):
             option = "--" + name.replace("_", "-")
@@ -137,11 +140,11 @@ def names_of(text: str) -> list[str]:
 
 def plot_angles(args: argparse.Namespace, style: Style) -> None:
     angles = read_angles(args.file, names_of(args.angles), (args.reference, names_of(args.reference_column)),
-                         (args.from_s, args.until), args.zero_to_reference)
+                         (args.from_s, args.until), args.zero_to_reference, args.negate_reference)
     if angles.references:
         angles.good_to = (asked_good_to(args.reference_good_to, "deg") if args.reference_good_to
                           else told_angles_good_to(args.reference or args.file))
-    elif args.reference_good_to or args.zero_to_reference:
+    elif args.reference_good_to or args.zero_to_reference or args.negate_reference:
         raise RefusedError(args.file, "no column such as ref_flexion_deg: nothing to compare with; see --reference")
     title = args.file.name if args.title is None else args.title
     with style.context():
