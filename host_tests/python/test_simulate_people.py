@@ -1,6 +1,9 @@
 """The simulator of people is checked against its own poses by differences, and against what it promises of skin and axes."""
 
+import json
+import subprocess
 import sys
+import tempfile
 import unittest
 from dataclasses import replace
 from pathlib import Path
@@ -13,6 +16,7 @@ sys.path.insert(0, str(ROOT / "tools" / "python"))
 from jointcal_tools import quaternions as quat  # noqa: E402
 from jointcal_tools import simulate_people as people  # noqa: E402
 from jointcal_tools.jets import Clock  # noqa: E402
+from jointcal_tools.recordings import load_csv  # noqa: E402
 from jointcal_tools.simulate import GRAVITY_M_S2  # noqa: E402
 from jointcal_tools.simulate_people import ACTIVITIES, PLACES, PersonSpec, simulate_person  # noqa: E402
 
@@ -88,6 +92,20 @@ class SignalsTest(unittest.TestCase):
         for wrong in ({"joint": "hip"}, {"activities": (("swim", 10.0),)}, {"activities": (("walk", 1.0),)}, {"rate_hz": 20.0}):
             with self.subTest(wrong), self.assertRaises(ValueError):
                 PersonSpec(**wrong)
+
+
+class ProgramTest(unittest.TestCase):
+    def test_it_writes_a_recording_and_its_truth(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "x.csv"
+            command = [sys.executable, ROOT / "tools" / "simulate_people.py", "--activity", "stand:3", "walk:4", "--joint", "ankle",
+                       "--rate", "50", "--seed", "3", "--out", path]
+            subprocess.run(command, check=True)
+            rec, truth = load_csv(path), json.loads(path.with_suffix(".json").read_text())
+        made = simulate_person(PersonSpec((("stand", 3.0), ("walk", 4.0)), "ankle", 50.0, 3))
+        np.testing.assert_allclose(rec.gyr2, made.gyr2, atol=1e-6)
+        np.testing.assert_allclose(rec.columns["ref_flexion_deg"], np.degrees(made.flexion_rad), atol=1e-5)
+        np.testing.assert_allclose(truth["axis1"], made.axis1)
 
 
 class JointTest(unittest.TestCase):

@@ -134,6 +134,8 @@ class PersonSpec:
                 raise ValueError(f"unknown activity '{name}'")
             if duration_s < 2.0 * BLEND_S:
                 raise ValueError(f"an activity lasts at least {2.0 * BLEND_S:g} s")
+        if not 0.0 <= self.loop <= 1.0:
+            raise ValueError("loop must be within 0 and 1")
         if not RATE_RANGE_HZ[0] <= self.rate_hz <= RATE_RANGE_HZ[1]:
             raise ValueError("rate_hz must be within {:g} and {:g}".format(*RATE_RANGE_HZ))
 
@@ -162,6 +164,13 @@ class PersonRecording(Recording):
     bone1: np.ndarray  # (N, 4) orientation of the bone as mounted: without skin
     bone2: np.ndarray
     spec: PersonSpec
+
+    def extra_columns(self) -> dict[str, np.ndarray]:
+        """Reference flexion in deg and true orientations, for a file."""
+        columns = {"ref_flexion_deg": np.degrees(self.flexion_rad)}
+        for index, q in ((1, self.q1), (2, self.q2)):
+            columns |= {f"q{index}_{name}": column for name, column in zip("wxyz", q.T, strict=True)}
+        return columns
 
     def truth(self) -> dict:
         """What a test wants to know besides the signals, ready for JSON."""
