@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Any bytes as samples of a hinge of either kind, and as ticks of the functional joint: results keep what the headers promise, and what
  * is no motion of a joint never becomes ready. */
+#include "bytes.h"
 #include "jointcal/functional.h"
 #include "jointcal/hinge_auto.h"
 #include "jointcal/quat.h"
@@ -8,37 +9,12 @@
 #include "jointcal/vec3.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
-
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
-
-/* Written so that NaN fails. */
-static void require_within(float value, float low, float high)
-{
-    require(value >= low && value <= high);
-}
 
 #define LARGEST_M 1e9f
 #define HALF_PI 1.5708f
 #define PI 3.14160f
-
-static bool is_unit(jcal_vec3_t axis)
-{
-    return fabsf(jcal_vec3_norm(axis) - 1.0f) < 1e-4f;
-}
-
-static bool is_zero(jcal_vec3_t v)
-{
-    return v.x == 0.0f && v.y == 0.0f && v.z == 0.0f;
-}
 
 static void require_words(const jcal_head_t *head)
 {
@@ -101,38 +77,8 @@ static void check_auto(const jcal_hinge_auto_result_t *r)
     require(jcal_vec3_norm(r->joint_to_sensor1_m) < LARGEST_M && jcal_vec3_norm(r->joint_to_sensor2_m) < LARGEST_M);
 }
 
-/* How the bytes of a sample are read: anything at all, or values of a sensor's range, which get past the gate. */
-typedef enum { AS_FLOATS, AS_SENSOR } reading_t;
-
 #define SAMPLE_BYTES 26u /* 2 bytes of time step, 12 values of 2 bytes */
 #define TICK_BYTES 138u  /* 2 bytes of time step, 2 x (1 of epoch, 67 of values) */
-
-static float component(const uint8_t *data, reading_t reading, float range)
-{
-    int16_t raw;
-    memcpy(&raw, data, sizeof raw);
-    if (reading == AS_SENSOR) {
-        return range * (float)raw / 32768.0f;
-    }
-    const uint32_t bits = (uint32_t)(uint16_t)raw << 16;
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static jcal_vec3_t vector(const uint8_t *data, reading_t reading, float range)
-{
-    return jcal_vec3(component(data, reading, range), component(data + 2, reading, range),
-                     component(data + 4, reading, range));
-}
-
-/* Mostly forward, now and then backward or not at all. */
-static uint64_t step_of(const uint8_t *data, reading_t reading)
-{
-    uint16_t step;
-    memcpy(&step, data, sizeof step);
-    return (reading == AS_SENSOR) ? 5000u + step % 40000u : (uint64_t)(int64_t)(int16_t)step * 100u;
-}
 
 static jcal_tick_t tick_at(const uint8_t *data, reading_t reading, uint64_t t_us, float dt_s)
 {
@@ -172,7 +118,7 @@ static void run_ticks(const uint8_t *data, size_t size, reading_t reading, unsig
     uint64_t t_us = 0;
     for (unsigned repeat = 0; repeat < repeats; repeat++) {
         for (size_t at = 2; at + TICK_BYTES <= size; at += TICK_BYTES) {
-            const uint64_t step_us = step_of(data + at, reading) * 4u;
+            const uint64_t step_us = step_of(data + at, reading, 5000u) * 4u;
             t_us += step_us;
             const float dt_s = (reading == AS_SENSOR) ? 1e-6f * (float)step_us : component(data + at, reading, 1.0f);
             const jcal_tick_t tick1 = tick_at(data + at + 2, reading, t_us, dt_s);
@@ -189,9 +135,7 @@ static void run_ticks(const uint8_t *data, size_t size, reading_t reading, unsig
 
 static jcal_pair_t pair_at(const uint8_t *data, reading_t reading, uint64_t t_us)
 {
-    const jcal_pair_t pair = {t_us,
-                              {vector(data + 2, reading, 10.0f), vector(data + 8, reading, 30.0f)},
-                              {vector(data + 14, reading, 10.0f), vector(data + 20, reading, 30.0f)}};
+    const jcal_pair_t pair = {t_us, imu_at(data + 2, reading, 10.0f, 30.0f), imu_at(data + 14, reading, 10.0f, 30.0f)};
     return pair;
 }
 
@@ -206,7 +150,7 @@ static void run_sensors(const uint8_t *data, size_t size, reading_t reading, uns
     uint64_t t_us = 0;
     for (unsigned repeat = 0; repeat < repeats; repeat++) {
         for (size_t at = 2; at + SAMPLE_BYTES <= size; at += SAMPLE_BYTES) {
-            t_us += step_of(data + at, reading);
+            t_us += step_of(data + at, reading, 5000u);
             const jcal_pair_t pair = pair_at(data + at, reading, t_us);
             const jcal_reading_t readings[2] = {{t_us, pair.imu1}, {t_us, pair.imu2}};
             const jcal_status_t of1 = jcal_sensor_push(&sensors[0], &readings[0]);
@@ -230,7 +174,7 @@ static void run_auto(const uint8_t *data, size_t size, reading_t reading, unsign
     uint64_t t_us = UINT64_MAX - 1000000u;
     for (unsigned repeat = 0; repeat < repeats; repeat++) {
         for (size_t at = 2; at + SAMPLE_BYTES <= size; at += SAMPLE_BYTES) {
-            t_us += step_of(data + at, reading);
+            t_us += step_of(data + at, reading, 5000u);
             const jcal_pair_t pair = pair_at(data + at, reading, t_us);
             const jcal_status_t status = jcal_hinge_auto_update(&hinge, &pair);
             require(status == JCAL_OK || status == JCAL_REJECTED);

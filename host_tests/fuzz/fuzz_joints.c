@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Any bytes as samples of joints with two axes, joint centres, and hip and knee: results keep what the headers promise. */
+#include "bytes.h"
 #include "jointcal/jointcal.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
@@ -19,19 +16,6 @@ static jcal_center_window_t center_window;
 static uint64_t center_storage[JCAL_CENTER_WINDOW_STORAGE_BYTES(N_MAX) / sizeof(uint64_t) + 1u];
 static jcal_chain_t chain;
 
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
-
-/* The two that are compared so that NaN fails. */
-static void require_within(float value, float low, float high)
-{
-    require(value >= low && value <= high);
-}
-
 static void require_counts(const uint32_t *by, uint32_t samples, uint32_t rejected, uint32_t pushed)
 {
     uint32_t sum = 0;
@@ -45,11 +29,6 @@ static void require_words(jcal_calibration_t status, jcal_reason_t reason)
 {
     require(status >= JCAL_COLLECTING && status <= JCAL_MOVED && jcal_calibration_string(status) != NULL);
     require((status == JCAL_READY) == (reason == JCAL_REASON_NONE));
-}
-
-static bool is_unit(jcal_vec3_t axis)
-{
-    return fabsf(jcal_vec3_norm(axis) - 1.0f) < 1e-4f;
 }
 
 static void check_two_dof(const jcal_two_dof_result_t *r, uint32_t pushed)
@@ -97,32 +76,6 @@ static void check_chain(uint32_t pushed)
     require_within(r.uncertainty_segment_m, 0.0f, 1e6f);
 }
 
-/* How the bytes of a sample are read: anything at all, or values of a sensor's range, which get past the gate. */
-typedef enum { AS_FLOATS, AS_SENSOR } reading_t;
-
-static float component(const uint8_t *data, reading_t reading, float range)
-{
-    int16_t raw;
-    memcpy(&raw, data, sizeof raw);
-    if (reading == AS_SENSOR) {
-        return range * (float)raw / 32768.0f;
-    }
-    const uint32_t bits = (uint32_t)(uint16_t)raw << 16;
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static jcal_imu_t imu_at(const uint8_t *data, reading_t reading)
-{
-    float v[6];
-    for (size_t k = 0; k < 6; k++) {
-        v[k] = component(data + 2 * k, reading, (k < 3) ? 10.0f : 30.0f);
-    }
-    const jcal_imu_t imu = {jcal_vec3(v[0], v[1], v[2]), jcal_vec3(v[3], v[4], v[5])};
-    return imu;
-}
-
 /* Of unit length if it is read as a sensor's. */
 static jcal_quat_t quat_at(const uint8_t *data, reading_t reading)
 {
@@ -164,8 +117,8 @@ static void begin(uint8_t choice)
 
 static void push_all(const uint8_t *data, reading_t reading, uint64_t t_us)
 {
-    const jcal_triple_t triple = {t_us, imu_at(data + 2, reading), imu_at(data + 14, reading),
-                                  imu_at(data + 26, reading)};
+    const jcal_triple_t triple = {t_us, imu_at(data + 2, reading, 10.0f, 30.0f),
+                                  imu_at(data + 14, reading, 10.0f, 30.0f), imu_at(data + 26, reading, 10.0f, 30.0f)};
     const jcal_triple_attitudes_t q = {quat_at(data + 38, reading), quat_at(data + 46, reading),
                                        quat_at(data + 54, reading)};
     const jcal_pair_t pair = {t_us, triple.imu1, triple.imu2};
@@ -209,10 +162,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     uint32_t pushed = 0;
     for (unsigned repeat = 0; repeat < repeats; repeat++) {
         for (size_t at = 2; at + SAMPLE_BYTES <= size; at += SAMPLE_BYTES) {
-            uint16_t step;
-            memcpy(&step, data + at, sizeof step);
-            /* Mostly forward, now and then backward or not at all. */
-            t_us += (reading == AS_SENSOR) ? 5000u + step % 40000u : (uint64_t)(int64_t)(int16_t)step * 100u;
+            t_us += step_of(data + at, reading, 5000u);
             push_all(data + at, reading, t_us);
             check_all(++pushed);
         }

@@ -1,32 +1,12 @@
 /* SPDX-License-Identifier: MIT */
 /* Any bytes as samples: whatever is pushed, results keep what the headers promise. */
+#include "bytes.h"
 #include "jointcal/jointcal.h"
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 /* Room for the config below, which is checked. */
 #define STORAGE_BYTES 65536
-
-static void require(bool condition)
-{
-    if (!condition) {
-        abort();
-    }
-}
-
-static bool is_unit(jcal_vec3_t axis)
-{
-    return fabsf(jcal_vec3_norm(axis) - 1.0f) < 1e-4f;
-}
-
-static bool is_zero(jcal_vec3_t axis)
-{
-    return axis.x == 0.0f && axis.y == 0.0f && axis.z == 0.0f;
-}
 
 static bool is_fraction(float value)
 {
@@ -66,40 +46,12 @@ static void check_result(const jcal_hinge_result_t *result, jcal_engine_t engine
     }
 }
 
-/* How the bytes of a sample are read: anything at all, or values of a sensor's range, which get past the gate. */
-typedef enum { AS_FLOATS, AS_SENSOR } reading_t;
-
 #define SAMPLE_BYTES 26u /* 2 bytes of time step, 12 values of 2 bytes */
-
-/* One 16-bit value as a float: its bits spread over all exponents, or scaled to the range. */
-static float component(const uint8_t *data, reading_t reading, float range)
-{
-    int16_t raw;
-    memcpy(&raw, data, sizeof raw);
-    if (reading == AS_SENSOR) {
-        return range * (float)raw / 32768.0f;
-    }
-    const uint32_t bits = (uint32_t)(uint16_t)raw << 16;
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static jcal_vec3_t vector(const uint8_t *data, reading_t reading, float range)
-{
-    return jcal_vec3(component(data, reading, range), component(data + 2, reading, range),
-                     component(data + 4, reading, range));
-}
 
 static jcal_pair_t sample(const uint8_t *data, reading_t reading, uint64_t *t_us)
 {
-    uint16_t step;
-    memcpy(&step, data, sizeof step);
-    /* Mostly forward, now and then backward or not at all. */
-    *t_us += (reading == AS_SENSOR) ? 5000u + step % 40000u : (uint64_t)(int64_t)(int16_t)step * 100u;
-    const jcal_pair_t pair = {*t_us,
-                              {vector(data + 2, reading, 10.0f), vector(data + 8, reading, 30.0f)},
-                              {vector(data + 14, reading, 10.0f), vector(data + 20, reading, 30.0f)}};
+    *t_us += step_of(data, reading, 5000u);
+    const jcal_pair_t pair = {*t_us, imu_at(data + 2, reading, 10.0f, 30.0f), imu_at(data + 14, reading, 10.0f, 30.0f)};
     return pair;
 }
 

@@ -1,51 +1,18 @@
 /* SPDX-License-Identifier: MIT */
 /* Any bytes as readings of one sensor: orientation, bias and features keep what the headers promise. */
+#include "bytes.h"
 #include "jointcal/jointcal.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-/* How the bytes of a reading are read: anything at all, or values of a sensor's range. */
-typedef enum { AS_FLOATS, AS_SENSOR } kind_t;
-
 #define READING_BYTES 14u /* 2 bytes of time step, 6 values of 2 bytes */
 
-static void require(bool condition)
+static jcal_reading_t reading_at(const uint8_t *data, reading_t kind, uint64_t *t_us)
 {
-    if (!condition) {
-        abort();
-    }
-}
-
-/* One 16-bit value as a float: its bits spread over all exponents, or scaled to the range. */
-static float component(const uint8_t *data, kind_t kind, float range)
-{
-    int16_t raw;
-    memcpy(&raw, data, sizeof raw);
-    if (kind == AS_SENSOR) {
-        return range * (float)raw / 32768.0f;
-    }
-    const uint32_t bits = (uint32_t)(uint16_t)raw << 16;
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-static jcal_vec3_t vector(const uint8_t *data, kind_t kind, float range)
-{
-    return jcal_vec3(component(data, kind, range), component(data + 2, kind, range), component(data + 4, kind, range));
-}
-
-static jcal_reading_t reading_at(const uint8_t *data, kind_t kind, uint64_t *t_us)
-{
-    uint16_t step;
-    memcpy(&step, data, sizeof step);
-    /* Mostly forward, now and then backward or not at all. */
-    *t_us += (kind == AS_SENSOR) ? 1u + step % 40000u : (uint64_t)(int64_t)(int16_t)step * 100u;
-    const jcal_reading_t reading = {*t_us, {vector(data + 2, kind, 35.0f), vector(data + 8, kind, 160.0f)}};
+    *t_us += step_of(data, kind, 1u);
+    const jcal_reading_t reading = {*t_us, imu_at(data + 2, kind, 35.0f, 160.0f)};
     return reading;
 }
 
@@ -76,7 +43,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (size == 0) {
         return 0;
     }
-    const kind_t kind = ((data[0] & 1u) != 0) ? AS_SENSOR : AS_FLOATS;
+    const reading_t kind = ((data[0] & 1u) != 0) ? AS_SENSOR : AS_FLOATS;
     const unsigned repeats = 1u + (data[0] >> 4);
     uint64_t t_us = (data[0] & 2u) != 0 ? UINT64_MAX - 1000000u : 0;
     for (unsigned repeat = 0; repeat < repeats; repeat++) {
