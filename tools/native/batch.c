@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VALUES_PER_PAIR 12
-
 void jcal_batch_defaults(jcal_batch_options_t *options)
 {
     const jcal_hinge_window_config_t window = jcal_hinge_window_config_default();
@@ -69,16 +67,6 @@ const char *jcal_batch_check(const jcal_batch_options_t *options)
                                                    : jcal_hinge_window_config_check(&config);
 }
 
-static jcal_pair_t pair_at(uint64_t t_us, const float *v)
-{
-    const jcal_pair_t pair = {
-        .t_us = t_us,
-        .imu1 = {.gyr_rad_s = {v[0], v[1], v[2]}, .acc_m_s2 = {v[3], v[4], v[5]}},
-        .imu2 = {.gyr_rad_s = {v[6], v[7], v[8]}, .acc_m_s2 = {v[9], v[10], v[11]}},
-    };
-    return pair;
-}
-
 static void write_row(const jcal_hinge_result_t *r, float row[static JCAL_BATCH_COLUMNS])
 {
     const float values[JCAL_BATCH_COLUMNS] = {
@@ -116,7 +104,7 @@ static int32_t run_stream(const jcal_hinge_config_t *config, const jcal_batch_in
     }
     jcal_hinge_result_t result;
     for (size_t k = 0; k < in->count; k++) {
-        const jcal_pair_t pair = pair_at(in->t_us[k], in->values + k * VALUES_PER_PAIR);
+        const jcal_pair_t pair = jcal_batch_pair(in, k);
         (void)jcal_hinge_update(&engine, &pair);
         (void)jcal_hinge_get(&engine, &result);
         write_row(&result, out->rows + k * JCAL_BATCH_COLUMNS);
@@ -141,7 +129,7 @@ static int32_t run_window(const jcal_hinge_window_config_t *config, const jcal_b
     }
     jcal_hinge_result_t result;
     for (size_t k = 0; k < in->count; k++) {
-        const jcal_pair_t pair = pair_at(in->t_us[k], in->values + k * VALUES_PER_PAIR);
+        const jcal_pair_t pair = jcal_batch_pair(in, k);
         (void)jcal_hinge_window_update(&engine, &pair);
         (void)jcal_hinge_window_get(&engine, &result);
         write_row(&result, out->rows + k * JCAL_BATCH_COLUMNS);

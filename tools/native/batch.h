@@ -45,6 +45,18 @@ typedef struct {
     size_t count;
 } jcal_batch_input_t;
 
+/* Sample k. */
+static inline jcal_pair_t jcal_batch_pair(const jcal_batch_input_t *in, size_t k)
+{
+    const float *const v = in->values + 12u * k;
+    const jcal_pair_t pair = {
+        .t_us = in->t_us[k],
+        .imu1 = {.gyr_rad_s = {v[0], v[1], v[2]}, .acc_m_s2 = {v[3], v[4], v[5]}},
+        .imu2 = {.gyr_rad_s = {v[6], v[7], v[8]}, .acc_m_s2 = {v[9], v[10], v[11]}},
+    };
+    return pair;
+}
+
 typedef struct {
     float *rows;           /* count x JCAL_BATCH_COLUMNS, the result after each sample */
     uint32_t *rejected_by; /* JCAL_REJECT_COUNT */

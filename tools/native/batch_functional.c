@@ -5,8 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-#define VALUES_PER_PAIR 12
-
 void jcal_batch_functional_defaults(jcal_batch_functional_options_t *options)
 {
     const jcal_functional_config_t config = jcal_functional_config_default();
@@ -116,12 +114,7 @@ int32_t jcal_batch_functional(const jcal_batch_functional_options_t *options, co
     out->row_count = 0;
     uint32_t ticks = 0;
     for (size_t k = 0; k < in->count; k++) {
-        const float *const v = in->values + k * VALUES_PER_PAIR;
-        const jcal_pair_t pair = {
-            .t_us = in->t_us[k],
-            .imu1 = {.gyr_rad_s = {v[0], v[1], v[2]}, .acc_m_s2 = {v[3], v[4], v[5]}},
-            .imu2 = {.gyr_rad_s = {v[6], v[7], v[8]}, .acc_m_s2 = {v[9], v[10], v[11]}},
-        };
+        const jcal_pair_t pair = jcal_batch_pair(in, k);
         if ((options->hold > 0) && (k >= (size_t)options->hold)) { /* no slice of solving is paid for any more */
             engine.functional.joint.cfg.slices_per_s = 0.0f;
             engine.functional.joint.credit = 0.0f;

@@ -300,6 +300,13 @@ static void null_and_wrong_settings_are_errors(void)
     TEST_ASSERT_NULL(jcal_ready_for_string(JCAL_FOR_NOTHING));
 }
 
+static void add_ripple(jcal_vec3_t *v, float amplitude, float phase)
+{
+    v->x += amplitude * sinf(phase);
+    v->y += amplitude * sinf(phase + 1.0f);
+    v->z += amplitude * sinf(phase + 2.0f);
+}
+
 /* One stiff body that turns; sensor 2 vibrates on its strap at 33 Hz about one line, by `amplitude` rad/s. The lengths of both rates are
    those of a hinge about that line. */
 static jcal_pair_t vibrating_at(uint32_t k, float amplitude)
@@ -313,12 +320,11 @@ static jcal_pair_t vibrating_at(uint32_t k, float amplitude)
     const float vibration = amplitude * sinf(207.345f * t);
     pair.imu2.gyr_rad_s.x += 0.6f * vibration;
     pair.imu2.gyr_rad_s.z += 0.8f * vibration;
-    for (int i = 0; i < 3; ++i) { /* real sensors do not repeat themselves */
-        (&pair.imu1.gyr_rad_s.x)[i] += 5e-3f * sinf((9.1f * (float)k) + (float)i);
-        (&pair.imu2.gyr_rad_s.x)[i] += 5e-3f * sinf((11.3f * (float)k) + (float)i);
-        (&pair.imu1.acc_m_s2.x)[i] += 0.1f * sinf((15.7f * (float)k) + (float)i);
-        (&pair.imu2.acc_m_s2.x)[i] += 0.1f * sinf((17.9f * (float)k) + (float)i);
-    }
+    const float n = (float)k; /* real sensors do not repeat themselves */
+    add_ripple(&pair.imu1.gyr_rad_s, 5e-3f, 9.1f * n);
+    add_ripple(&pair.imu2.gyr_rad_s, 5e-3f, 11.3f * n);
+    add_ripple(&pair.imu1.acc_m_s2, 0.1f, 15.7f * n);
+    add_ripple(&pair.imu2.acc_m_s2, 0.1f, 17.9f * n);
     return pair;
 }
 
