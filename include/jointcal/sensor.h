@@ -47,6 +47,10 @@ typedef struct {
 /// Prepares a sensor; whatever `self` held before is lost. Errors: JCAL_ERR_ARG (null).
 JCAL_MUST_CHECK jcal_status_t jcal_sensor_init(jcal_sensor_t *self);
 
+/// True if a reading with these values is taken in: finite, and within the limits above. Sensors of one joint take both readings of a
+/// moment or neither; otherwise their ticks are not of the same times any more.
+bool jcal_sensor_may_take(const jcal_imu_t *imu);
+
 /// Takes in one reading.
 ///
 /// Returns:  JCAL_OK; JCAL_TICK if there are new features; JCAL_REJECTED if a component is not finite or beyond the limits above, or if

@@ -52,8 +52,8 @@ jcal_status_t jcal_functional_pair_update(jcal_functional_pair_t *self, const jc
         return JCAL_ERR_ARG;
     }
     const jcal_reject_t reject = jcal_gate_check(&self->gate, &self->limits, pair);
-    if (!may_be_followed(reject)) {
-        return JCAL_REJECTED;
+    if (!may_be_followed(reject) || !jcal_sensor_may_take(&pair->imu1) || !jcal_sensor_may_take(&pair->imu2)) {
+        return JCAL_REJECTED; /* the gate does not look at the values of the first reading after a gap */
     }
     const jcal_reading_t reading1 = {pair->t_us, pair->imu1};
     const jcal_reading_t reading2 = {pair->t_us, pair->imu2};

@@ -39,6 +39,11 @@ static bool is_within(jcal_vec3_t v, float limit)
     return (fabsf(v.x) <= limit) && (fabsf(v.y) <= limit) && (fabsf(v.z) <= limit);
 }
 
+bool jcal_sensor_may_take(const jcal_imu_t *imu)
+{
+    return is_within(imu->gyr_rad_s, JCAL_SENSOR_GYR_MAX_RAD_S) && is_within(imu->acc_m_s2, JCAL_SENSOR_ACC_MAX_M_S2);
+}
+
 /// A reading less the bias of the gyroscope.
 static jcal_imu_t unbiased(const jcal_sensor_t *self, const jcal_imu_t *imu)
 {
@@ -125,8 +130,7 @@ jcal_status_t jcal_sensor_push(jcal_sensor_t *self, const jcal_reading_t *readin
         return JCAL_ERR_ARG; /* a variance is zero only where all is: before init */
     }
     const uint64_t dt_us = reading->t_us - self->last_us; /* huge if time goes back */
-    if (!is_within(reading->imu.gyr_rad_s, JCAL_SENSOR_GYR_MAX_RAD_S) ||
-        !is_within(reading->imu.acc_m_s2, JCAL_SENSOR_ACC_MAX_M_S2) || (self->has_last && (dt_us == 0u))) {
+    if (!jcal_sensor_may_take(&reading->imu) || (self->has_last && (dt_us == 0u))) {
         return JCAL_REJECTED;
     }
     self->last_us = reading->t_us;

@@ -93,6 +93,27 @@ static void readings_that_cannot_be_are_rejected(void)
     TEST_ASSERT_EQUAL_UINT32(1u, result().head.rejected_by[JCAL_REJECT_TIME_ORDER]);
 }
 
+/* The gate does not look at the values of the first reading after a gap. If one sensor alone refused it, ticks of both would not be of the
+   same times ever after. */
+static void sensors_stay_in_step_after_a_gap(void)
+{
+    uint32_t k = 0u;
+    for (; k < 400u; ++k) {
+        const jcal_pair_t pair = pair_at(k);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_functional_pair_update(&joint, &pair));
+    }
+    const uint32_t before = joint.joint.ticks;
+    k += 40u;
+    jcal_pair_t pair = pair_at(k);
+    pair.imu2.gyr_rad_s.x = 250.0f;
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_functional_pair_update(&joint, &pair));
+    for (uint32_t end = k + 400u; k < end;) {
+        pair = pair_at(++k);
+        (void)jcal_functional_pair_update(&joint, &pair);
+    }
+    TEST_ASSERT_TRUE(joint.joint.ticks > before + (before / 2u));
+}
+
 static void null_and_wrong_settings_are_errors(void)
 {
     jcal_functional_config_t config = jcal_functional_config_default();
@@ -119,6 +140,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(readings_become_axes_and_an_angle);
     RUN_TEST(readings_that_cannot_be_are_rejected);
+    RUN_TEST(sensors_stay_in_step_after_a_gap);
     RUN_TEST(null_and_wrong_settings_are_errors);
     return UNITY_END();
 }
