@@ -36,11 +36,9 @@ extern "C" {
 /// What the functional joint says.
 typedef struct {
     jcal_head_t head;
-    bool has_axes;     ///< False until there is any estimate; until then axes and places are zero.
-    bool for_axes;     ///< While ready: the bounds of both axes are within max_bound_rad.
-    bool for_flexion;  ///< While ready: the error of the angle is within max_flexion_rad.
-    bool
-        is_rigid;  ///< The rates fit as those of rigid segments do: the axes are the joint's own, not only those of this motion.
+    bool has_axes;           ///< False until there is any estimate; until then axes and places are zero.
+    bool for_axes;           ///< While ready: the bounds of both axes are within max_bound_rad.
+    bool for_flexion;        ///< While ready: the error of the angle is within max_flexion_rad.
     jcal_vec3_t axis1;       ///< Unit axis in sensor frame 1; its sign as in hinge.h.
     jcal_vec3_t axis2;       ///< Unit axis in sensor frame 2, sign following the pairing.
     float uncertainty1_rad;  ///< 95 % bound of axis1: of what other parts of the same motion would give; a right angle

@@ -4,6 +4,7 @@
 #include "functional/axes.h"
 
 #include "functional/model.h"
+#include "imu/turn.h"
 #include "jointcal/vec3.h"
 #include "math/chol_small.h"
 #include "math/scalar.h"
@@ -34,14 +35,16 @@ void jcal_functional_cross(const jcal_functional_sums_t *sums, const jcal_functi
     jcal_functional_cross_rate(sums, point, out->rate);
 }
 
+static const float MEMORY_S[JCAL_FAMILIES] = {TURN_MEMORY_S, RATE_MEMORY_S, LEVER_MEMORY_S};
+/* Two directions across an axis, three of a velocity: halved. */
+const float jcal_functional_rows_per_s[JCAL_FAMILIES] = {1.0f / TURN_MEMORY_S, 1.0f / RATE_MEMORY_S,
+                                                         1.5f / LEVER_MEMORY_S};
+
 void jcal_functional_measure(const jcal_functional_sums_t *sums, const jcal_functional_cross_t *x,
                              jcal_functional_point_t *point)
 {
     const float motion_s = jcal_max(sums->motion_s, FLT_MIN);
     const float floors[JCAL_FAMILIES] = {TURN_FLOOR, RATE_FLOOR, LEVER_FLOOR};
-    const float memory_s[JCAL_FAMILIES] = {TURN_MEMORY_S, RATE_MEMORY_S, LEVER_MEMORY_S};
-    const float rows[JCAL_FAMILIES] = {1.0f, 1.0f,
-                                       1.5f}; /* two directions across an axis, three of a velocity: halved */
     const float sizes[JCAL_FAMILIES] = {
         jcal_functional_turn_size(sums, x->turn, point->j1, point->j2),
         jcal_functional_rate_size(sums, x->rate, point->j1, point->j2),
@@ -51,8 +54,8 @@ void jcal_functional_measure(const jcal_functional_sums_t *sums, const jcal_func
     for (unsigned f = 0u; f < JCAL_FAMILIES; ++f) {
         const float size = jcal_max(sizes[f], floors[f]);
         point->size[f] = size;
-        point->weight[f] = 1.0f / (size * (LASTING + (memory_s[f] / motion_s)));
-        energy += (rows[f] / memory_s[f]) * jcal_ln(size);
+        point->weight[f] = 1.0f / (size * (LASTING + (MEMORY_S[f] / motion_s)));
+        energy += jcal_functional_rows_per_s[f] * jcal_ln(size);
     }
     point->energy = energy;
 }
@@ -79,7 +82,7 @@ void jcal_functional_quadric(const jcal_functional_sums_t *sums, const jcal_func
 static void slopes(const jcal_functional_quadric_t *h, jcal_vec3_t a, jcal_vec3_t b, jcal_vec3_t *slope1,
                    jcal_vec3_t *slope2)
 {
-    *slope1 = jcal_vec3_add(jcal_functional_times_packed(h->h11, a), jcal_functional_times(h->h12, b));
+    *slope1 = jcal_vec3_add(jcal_functional_times_packed(h->h11, a), jcal_turn_times(h->h12, b));
     *slope2 = jcal_vec3_add(jcal_functional_times_left(h->h12, a), jcal_functional_times_packed(h->h22, b));
 }
 

@@ -26,6 +26,9 @@ typedef struct {
 void jcal_functional_cross(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point,
                            jcal_functional_cross_t *out);
 
+/// Residuals that are independent of each other, of each kind, per second of motion.
+extern const float jcal_functional_rows_per_s[JCAL_FAMILIES];
+
 /// size, weight and energy of `point` at its axes, lack and the given X.
 void jcal_functional_measure(const jcal_functional_sums_t *sums, const jcal_functional_cross_t *x,
                              jcal_functional_point_t *point);

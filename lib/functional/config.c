@@ -5,17 +5,16 @@
 
 #include "joint/sign.h"
 #include "jointcal/vec3.h"
+#include "math/angle.h"
 #include "math/limits.h"
 
 #include <stddef.h>
 
-#define DEGREE 0.0174532925f
-
 jcal_functional_config_t jcal_functional_config_default(void)
 {
     jcal_functional_config_t config;
-    config.max_bound_rad = 3.0f * DEGREE;
-    config.max_flexion_rad = 3.0f * DEGREE;
+    config.max_bound_rad = 3.0f * JCAL_RAD_PER_DEG;
+    config.max_flexion_rad = 3.0f * JCAL_RAD_PER_DEG;
     config.sign_hint = JCAL_SIGN_UNKNOWN;
     config.axis1_toward = jcal_vec3(0.0f, 0.0f, 0.0f);
     config.slices_per_s = 100.0f;
@@ -33,12 +32,5 @@ const char *jcal_functional_config_check(const jcal_functional_config_t *config)
         {"slices_per_s", config->slices_per_s, 20.0f, 800.0f},
     };
     const char *const wrong = jcal_limits_check(limits, sizeof limits / sizeof limits[0]);
-    if (wrong != NULL) {
-        return wrong;
-    }
-    const int hint = (int)config->sign_hint;
-    if ((hint < (int)JCAL_SIGN_UNKNOWN) || (hint > (int)JCAL_SIGN_OPPOSITE)) {
-        return "sign_hint";
-    }
-    return jcal_sign_may_be_toward(config->axis1_toward) ? NULL : "axis1_toward";
+    return (wrong != NULL) ? wrong : jcal_sign_check(config->sign_hint, config->axis1_toward);
 }

@@ -6,11 +6,10 @@
 #include "joint/hysteresis.h"
 #include "joint/sign.h"
 #include "jointcal/functional.h"
+#include "math/angle.h"
 #include "math/scalar.h"
 
 #include <float.h>
-
-#define DEGREE 0.0174532925f
 
 /// Judgements in a row, a quarter of a second apart, that must agree before `ready`.
 #define AGREED_MIN 3u
@@ -18,21 +17,19 @@
 /// A specific force whose median is further than this from 9.81 m/s^2 is not to be trusted.
 #define GRAVITY_OFF_MAX 0.6f
 /// The axis must stay one direction in space to this, rad.
-#define LEANING_MAX (20.0f * DEGREE)
-/// Logarithm of the odds that the pairing of signs needs.
-#define EVIDENCE_MIN 7.0f
+#define LEANING_MAX (20.0f * JCAL_RAD_PER_DEG)
 /// What one fixed rotation between both rates must leave of the smaller one, or the joint does not move.
 #define STIFFNESS_MIN 0.05f
 
 /// Seconds of motion, bending, the share of the relative motion that must be along the axis, and of the centre's that may be left.
 #define MOTION_MIN_S 3.0f
-#define BEND_MIN_RAD (15.0f * DEGREE)
+#define BEND_MIN_RAD (15.0f * JCAL_RAD_PER_DEG)
 #define SHARE_MIN 0.8f
 #define LACK_MAX 0.025f
 /// Bending, rms, times the root of what is along the axis over what is across it: what there must be, more the worse the centre's motion
 /// fits. Two thighs that move alike do as a joint does, but bend about their line by 18 deg at 88 %, which makes 48 deg, with a share of
 /// 0.011 to 0.025 left; a knee that makes as little in its first seconds leaves 0.004.
-#define CLEAR_BEND_MIN_RAD (40.0f * DEGREE)
+#define CLEAR_BEND_MIN_RAD (40.0f * JCAL_RAD_PER_DEG)
 #define CLEAR_BEND_LACK 0.03f
 /// Noise of the centre's velocity, squared, (m/s)^2; what the other pairing must leave beside this one, and evidence of that kind.
 #define SPEED_NOISE2 6e-4f
@@ -44,22 +41,13 @@
 #define OPPOSITE_LEAST2 3e-4f
 #define LEVER_EVIDENCE_MIN 3.0f
 /// No axis of a person is good for angles beyond this bound, rad, whatever the angle's own bound says.
-#define BOUND_FOR_FLEXION_RAD (10.0f * DEGREE)
-
-bool jcal_functional_obeys(jcal_sign_hint_t hint, jcal_vec3_t axis1, jcal_vec3_t axis2)
-{
-    if (hint == JCAL_SIGN_UNKNOWN) {
-        return true;
-    }
-    const bool same = (jcal_sign_main(axis1) * jcal_sign_main(axis2)) > 0.0f;
-    return same == (hint == JCAL_SIGN_SAME);
-}
+#define BOUND_FOR_FLEXION_RAD (10.0f * JCAL_RAD_PER_DEG)
 
 /// True if both sensors' accelerations belong to one joint.
 static bool is_one_joint(const jcal_functional_t *self, float slack)
 {
     const float speed2 = jcal_max(self->point.speed2, FLT_MIN);
-    const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
+    const float left = jcal_functional_left(self);
     return (left - SPEED_NOISE2) <= (slack * LACK_MAX * speed2);
 }
 
@@ -68,7 +56,7 @@ static bool bends_clearly(const jcal_functional_t *self, float slack)
 {
     const float across = jcal_max(1.0f - self->verdict.share, FLT_EPSILON);
     const float clear = self->verdict.bend_rad * sqrtf(jcal_max(self->verdict.share, 0.0f) / across);
-    const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
+    const float left = jcal_functional_left(self);
     const float lack = jcal_max(left - SPEED_NOISE2, 0.0f) / jcal_max(self->point.speed2, FLT_MIN);
     return (slack * clear) >= (CLEAR_BEND_MIN_RAD * (1.0f + (lack / CLEAR_BEND_LACK)));
 }
@@ -77,14 +65,15 @@ static bool bends_clearly(const jcal_functional_t *self, float slack)
 static bool is_paired(const jcal_functional_t *self, float slack)
 {
     const jcal_functional_verdict_t *const verdict = &self->verdict;
-    const float evidence = verdict->evidence[0] + verdict->evidence[1] + verdict->evidence[2];
+    const float evidence = jcal_functional_evidence(verdict);
     if (self->cfg.sign_hint != JCAL_SIGN_UNKNOWN) {
-        return evidence > -EVIDENCE_MIN; /* the user said it; data that insist on the other pairing contradict */
+        /* The user said it; data that insist on the other pairing contradict. */
+        return evidence > -JCAL_FUNCTIONAL_EVIDENCE_MIN;
     }
-    if (!((slack * evidence) >= EVIDENCE_MIN)) {
+    if (!((slack * evidence) >= JCAL_FUNCTIONAL_EVIDENCE_MIN)) {
         return false;
     }
-    const float left = self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
+    const float left = jcal_functional_left(self);
     return ((slack * (verdict->opposite - SPEED_NOISE2)) >= (OPPOSITE_MIN * jcal_max(left, OPPOSITE_LEAST2))) &&
            ((slack * verdict->evidence[JCAL_FAMILY_LEVER]) >= LEVER_EVIDENCE_MIN);
 }
@@ -105,8 +94,8 @@ static jcal_reason_t find_objection(const jcal_functional_t *self, float slack)
     return JCAL_REASON_NONE;
 }
 
-/// The first thing that keeps the estimate from being ready, the worst first.
-static jcal_reason_t find_reason(const jcal_functional_t *self, float slack)
+/// The first thing that keeps the estimate from being ready, the worst first; `against` is what says that there is no axis.
+static jcal_reason_t find_reason(const jcal_functional_t *self, float slack, jcal_reason_t against)
 {
     const jcal_functional_verdict_t *const verdict = &self->verdict;
     if (self->gravity_off > (slack * GRAVITY_OFF_MAX)) {
@@ -122,7 +111,6 @@ static jcal_reason_t find_reason(const jcal_functional_t *self, float slack)
     if (!((slack * self->point.speed2) >= needed)) {
         return JCAL_REASON_SIGN_OPEN; /* too slow for what follows to mean much */
     }
-    const jcal_reason_t against = find_objection(self, slack);
     if (against != JCAL_REASON_NONE) {
         return against;
     }
@@ -160,9 +148,10 @@ void jcal_functional_judge(jcal_functional_t *self)
     verdict->for_axes = bound <= (slack * self->cfg.max_bound_rad);
     verdict->for_flexion =
         (verdict->flexion_rad <= (slack * self->cfg.max_flexion_rad)) && (bound <= (slack * BOUND_FOR_FLEXION_RAD));
-    const jcal_reason_t found = find_reason(self, slack);
-    verdict->is_one_axis = (found != JCAL_REASON_GRAVITY_OFF) && (found != JCAL_REASON_DOES_NOT_FIT) &&
-                           (find_objection(self, slack) == JCAL_REASON_NONE);
+    const jcal_reason_t against = find_objection(self, slack);
+    const jcal_reason_t found = find_reason(self, slack, against);
+    verdict->is_one_axis =
+        (found != JCAL_REASON_GRAVITY_OFF) && (found != JCAL_REASON_DOES_NOT_FIT) && (against == JCAL_REASON_NONE);
     verdict->agreed =
         (uint8_t)((found != JCAL_REASON_NONE) ? 0u : jcal_min((float)verdict->agreed + 1.0f, (float)AGREED_MIN));
     const bool ready = verdict->agreed >= AGREED_MIN;

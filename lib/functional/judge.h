@@ -5,11 +5,26 @@
 #define JCAL_FUNCTIONAL_JUDGE_H
 
 #include "jointcal/private/functional/stream.h"
+#include "math/scalar.h"
+
+#include <float.h>
 
 /// Status, reason, weak and hint of the verdict.
 void jcal_functional_judge(jcal_functional_t *self);
 
-/// True if the pairing of `axis1` and `axis2` is what the user's hint says, or there is none.
-bool jcal_functional_obeys(jcal_sign_hint_t hint, jcal_vec3_t axis1, jcal_vec3_t axis2);
+/// Logarithm of the odds that the pairing of signs needs.
+#define JCAL_FUNCTIONAL_EVIDENCE_MIN 7.0f
+
+/// Evidence of all kinds of residuals together.
+static inline float jcal_functional_evidence(const jcal_functional_verdict_t *verdict)
+{
+    return verdict->evidence[0] + verdict->evidence[1] + verdict->evidence[2];
+}
+
+/// Mean square that is left of the centre's motion, (m/s)^2.
+static inline float jcal_functional_left(const jcal_functional_t *self)
+{
+    return self->point.lack / jcal_max(self->sums.motion_s, FLT_MIN);
+}
 
 #endif /* JCAL_FUNCTIONAL_JUDGE_H */

@@ -124,13 +124,6 @@ float jcal_functional_between(const float *m, jcal_vec3_t a, jcal_vec3_t b)
            (a.z * ((m[6] * b.x) + (m[7] * b.y) + (m[8] * b.z)));
 }
 
-jcal_vec3_t jcal_functional_times(const float *m, jcal_vec3_t b)
-{
-    const jcal_vec3_t out = {(m[0] * b.x) + (m[1] * b.y) + (m[2] * b.z), (m[3] * b.x) + (m[4] * b.y) + (m[5] * b.z),
-                             (m[6] * b.x) + (m[7] * b.y) + (m[8] * b.z)};
-    return out;
-}
-
 jcal_vec3_t jcal_functional_times_left(const float *m, jcal_vec3_t a)
 {
     const jcal_vec3_t out = {(m[0] * a.x) + (m[3] * a.y) + (m[6] * a.z), (m[1] * a.x) + (m[4] * a.y) + (m[7] * a.z),

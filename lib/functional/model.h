@@ -42,8 +42,7 @@ void jcal_functional_about_z(jcal_plane_t heading, float *out);
 /// a' M b, M (3 x 3).
 float jcal_functional_between(const float *m, jcal_vec3_t a, jcal_vec3_t b);
 
-/// M b, and M' a, M (3 x 3).
-jcal_vec3_t jcal_functional_times(const float *m, jcal_vec3_t b);
+/// M' a, M (3 x 3).
 jcal_vec3_t jcal_functional_times_left(const float *m, jcal_vec3_t a);
 
 /// S v, S (3 x 3, packed).

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// What the functional joint says.
+#include "functional/judge.h"
 #include "joint/head.h"
 #include "joint/sign.h"
 #include "jointcal/functional.h"
@@ -11,8 +12,6 @@
 #include <float.h>
 #include <math.h>
 
-/// Evidence at which the pairing is certain, as in functional/judge.c.
-#define EVIDENCE_ENOUGH 7.0f
 /// Largest margin that is told.
 #define MARGIN_MAX 1e6f
 
@@ -27,10 +26,9 @@ static void say_axes(const jcal_functional_t *self, jcal_functional_result_t *ou
     out->joint_to_sensor2_m = point->r2;
     out->bend_rad = verdict->bend_rad;
     out->rate_share = sqrtf(point->size[JCAL_FAMILY_RATE]);
-    const float left = point->lack / jcal_max(self->sums.motion_s, FLT_MIN);
-    out->sign_margin = jcal_min(verdict->opposite / jcal_max(left, FLT_MIN), MARGIN_MAX);
-    const float evidence = verdict->evidence[0] + verdict->evidence[1] + verdict->evidence[2];
-    out->progress_sign = jcal_max(0.0f, jcal_min(1.0f, evidence / EVIDENCE_ENOUGH));
+    out->sign_margin = jcal_min(verdict->opposite / jcal_max(jcal_functional_left(self), FLT_MIN), MARGIN_MAX);
+    const float evidence = jcal_functional_evidence(verdict);
+    out->progress_sign = jcal_max(0.0f, jcal_min(1.0f, evidence / JCAL_FUNCTIONAL_EVIDENCE_MIN));
     out->progress_axis1 = jcal_head_progress(verdict->bound1_rad, self->cfg.max_bound_rad);
     out->progress_axis2 = jcal_head_progress(verdict->bound2_rad, self->cfg.max_bound_rad);
     out->heading.known = self->track.known;

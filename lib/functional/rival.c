@@ -14,9 +14,6 @@
 
 #include <float.h>
 
-/// Residuals of an estimate are compared with its rival's where both have relative turns that follow the heading.
-static const float ROWS_PER_MEMORY[JCAL_FAMILIES] = {1.0f / 4.0f, 1.0f / 0.3f, 1.5f / 1.0f};
-
 /// X of all headings turned by half a turn: vertical rows stay, the others change their sign.
 static void half_turned(float *x, const float *up, size_t n)
 {
@@ -68,7 +65,7 @@ static void compare(jcal_functional_t *self)
     jcal_functional_measure(&self->sums, &x, &level);
     for (unsigned f = 0u; f < JCAL_FAMILIES; ++f) {
         const float odds = jcal_ln(other->size[f] / jcal_max(level.size[f], FLT_MIN));
-        self->verdict.evidence[f] = ROWS_PER_MEMORY[f] * self->sums.motion_s * odds;
+        self->verdict.evidence[f] = jcal_functional_rows_per_s[f] * self->sums.motion_s * odds;
     }
     self->verdict.opposite = other->lack / jcal_max(self->sums.motion_s, FLT_MIN);
 }

@@ -1,10 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// The functional joint: ticks into sums, and the schedule of the work. Method: docs/METHOD_PEOPLE.md.
-#include "functional/axes.h"
 #include "functional/bounds.h"
 #include "functional/describe.h"
-#include "functional/headings.h"
 #include "functional/judge.h"
 #include "functional/rival.h"
 #include "functional/search.h"
@@ -238,10 +236,9 @@ static void look_at_rival(jcal_functional_t *self)
     if (part < (JCAL_FUNCTIONAL_RIVAL_SLICES - 1u)) {
         return;
     }
-    const float evidence = self->verdict.evidence[0] + self->verdict.evidence[1] + self->verdict.evidence[2];
     const bool hinted = self->cfg.sign_hint != JCAL_SIGN_UNKNOWN;
-    const bool wrong = hinted ? !jcal_functional_obeys(self->cfg.sign_hint, self->point.j1, self->point.j2)
-                              : (evidence < EVIDENCE_TURN);
+    const bool wrong = hinted ? !jcal_sign_obeys(self->cfg.sign_hint, self->point.j1, self->point.j2, self->kept_sign)
+                              : (jcal_functional_evidence(&self->verdict) < EVIDENCE_TURN);
     if (wrong) {
         const jcal_vec3_t was1 = self->point.j1;
         const jcal_vec3_t was2 = self->point.j2;
@@ -282,6 +279,7 @@ static void work(jcal_functional_t *self)
                 jcal_functional_track_trust(self);
             }
             jcal_sign_keep(&self->kept_sign[0], self->point.j1, self->cfg.axis1_toward);
+            jcal_sign_keep(&self->kept_sign[1], self->point.j2, jcal_vec3(0.0f, 0.0f, 0.0f));
         }
     }
     self->slice = next_of(self, slice);

@@ -5,6 +5,7 @@
 
 #include "functional/model.h"
 #include "functional/twist.h"
+#include "imu/turn.h"
 #include "joint/sign.h"
 #include "jointcal/functional.h"
 #include "jointcal/vec3.h"
@@ -61,12 +62,12 @@ typedef struct {
 /// Velocity of the joint's centre: [U B][1; -r].
 static jcal_vec3_t centre_velocity(const jcal_tick_t *tick, jcal_vec3_t r)
 {
-    return jcal_vec3_sub(tick->velocity, jcal_functional_times(tick->lever, r));
+    return jcal_vec3_sub(tick->velocity, jcal_turn_times(tick->lever, r));
 }
 
 static seen_t seen_by(const jcal_functional_point_t *point, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
 {
-    const seen_t out = {jcal_functional_times(tick1->turn, point->j1), jcal_functional_times(tick2->turn, point->j2),
+    const seen_t out = {jcal_turn_times(tick1->turn, point->j1), jcal_turn_times(tick2->turn, point->j2),
                         centre_velocity(tick1, point->r1), centre_velocity(tick2, point->r2)};
     return out;
 }
@@ -126,8 +127,8 @@ void jcal_functional_track_add(jcal_functional_t *self, const jcal_tick_t *tick1
     if (jcal_plane_norm2(track->sum) > FLT_MIN) {
         track->heading = jcal_plane_direction(track->sum);
         track->known = true;
-        const jcal_vec3_t rate1 = jcal_functional_times(tick1->rate, point->j1);
-        const jcal_vec3_t rate2 = jcal_functional_times(tick2->rate, point->j2);
+        const jcal_vec3_t rate1 = jcal_turn_times(tick1->rate, point->j1);
+        const jcal_vec3_t rate2 = jcal_turn_times(tick2->rate, point->j2);
         watch(self, &seen, apart2(track->heading, rate1, rate2), motion_s);
     }
 }

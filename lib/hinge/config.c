@@ -47,14 +47,8 @@ const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
     if (out != NULL) {
         return out;
     }
-    const int hint = (int)config->sign_hint;
-    if ((hint < (int)JCAL_SIGN_UNKNOWN) || (hint > (int)JCAL_SIGN_OPPOSITE)) {
-        return "sign_hint";
-    }
-    if (!jcal_sign_may_be_toward(config->axis1_toward)) {
-        return "axis1_toward";
-    }
-    return jcal_gate_config_check(&config->gate);
+    const char *const sign = jcal_sign_check(config->sign_hint, config->axis1_toward);
+    return (sign != NULL) ? sign : jcal_gate_config_check(&config->gate);
 }
 
 jcal_hinge_window_config_t jcal_hinge_window_config_default(void)

@@ -59,8 +59,7 @@ bool jcal_hinge_same_pairing(const jcal_hinge_point_t *a, const jcal_hinge_point
 
 bool jcal_hinge_obeys(const jcal_hinge_point_t *point, jcal_sign_hint_t hint, const int8_t kept[2])
 {
-    const bool same = jcal_sign_held(point->axis1.j, kept[0]) == jcal_sign_held(point->axis2.j, kept[1]);
-    return !((hint == JCAL_SIGN_SAME) && !same) && !((hint == JCAL_SIGN_OPPOSITE) && same);
+    return jcal_sign_obeys(hint, point->axis1.j, point->axis2.j, kept);
 }
 
 void jcal_hinge_obey(jcal_hinge_point_t *point, jcal_sign_hint_t hint, const int8_t kept[2])

@@ -10,10 +10,12 @@
 #ifndef JCAL_JOINT_SIGN_H
 #define JCAL_JOINT_SIGN_H
 
+#include "jointcal/hinge_config.h"
 #include "jointcal/vec3.h"
 
 #include <math.h>
 #include <stdbool.h>
+#include <stddef.h>
 #include <stdint.h>
 
 /// Largest component of a direction that a user may name; of any other length than zero, which names none.
@@ -71,6 +73,23 @@ static inline void jcal_sign_keep(int8_t *kept, jcal_vec3_t axis, jcal_vec3_t to
     if (*kept == 0) {
         *kept = jcal_sign_largest(jcal_vec3_scale(axis, jcal_sign_of(axis, toward, 0)));
     }
+}
+
+/// True if the pairing of two axes is what the user's hint says, or there is none; `kept`: the state of both, so that a tie is no change.
+static inline bool jcal_sign_obeys(jcal_sign_hint_t hint, jcal_vec3_t axis1, jcal_vec3_t axis2, const int8_t kept[2])
+{
+    const bool same = jcal_sign_held(axis1, kept[0]) == jcal_sign_held(axis2, kept[1]);
+    return !((hint == JCAL_SIGN_SAME) && !same) && !((hint == JCAL_SIGN_OPPOSITE) && same);
+}
+
+/// Name of the setting that is none of these, or null.
+static inline const char *jcal_sign_check(jcal_sign_hint_t hint, jcal_vec3_t toward)
+{
+    const int number = (int)hint;
+    if ((number < (int)JCAL_SIGN_UNKNOWN) || (number > (int)JCAL_SIGN_OPPOSITE)) {
+        return "sign_hint";
+    }
+    return jcal_sign_may_be_toward(toward) ? NULL : "axis1_toward";
 }
 
 #endif /* JCAL_JOINT_SIGN_H */

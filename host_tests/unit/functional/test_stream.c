@@ -351,6 +351,7 @@ static void ready_is_no_slip(void)
         run_begin(&run, &hinge, NULL);
         run.next = (uint32_t)(53 * number);
         (void)run_until(&run, JCAL_READY, 15.0);
+        TEST_ASSERT_TRUE((run.joint.kept_sign[0] != 0) && (run.joint.kept_sign[1] != 0));
         for (int k = 0; k < 60; ++k) {
             run_tick(&run);
             TEST_ASSERT_EQUAL_INT(JCAL_READY, run_result(&run).head.status);
@@ -360,6 +361,7 @@ static void ready_is_no_slip(void)
     run_begin(&run, &hinge, NULL);
     run_for(&run, 2.5);
     TEST_ASSERT_EQUAL_INT(0, run.joint.kept_sign[0]);
+    TEST_ASSERT_EQUAL_INT(0, run.joint.kept_sign[1]);
     for (int f = 0; f < 3; ++f) { /* as if another estimate had been wrong until now */
         run.joint.track.recent[f] = 50.0f;
     }

@@ -83,6 +83,22 @@ static void a_direction_is_zero_or_finite(void)
     TEST_ASSERT_FALSE(jcal_sign_may_be_toward(jcal_vec3(0.0f, 1.0f, -2e6f)));
 }
 
+/* A hint is about the largest components; once kept, it is about those that were largest then. */
+static void a_hint_outlives_a_tie(void)
+{
+    const jcal_vec3_t axis1 = jcal_vec3(0.69f, -0.70f, 0.1f);
+    const jcal_vec3_t axis2 = jcal_vec3(0.98f, 0.1f, 0.1f);
+    const int8_t none[2] = {0, 0};
+    const int8_t kept[2] = {1, 1};
+    TEST_ASSERT_TRUE(jcal_sign_obeys(JCAL_SIGN_UNKNOWN, axis1, axis2, none));
+    TEST_ASSERT_FALSE(jcal_sign_obeys(JCAL_SIGN_SAME, axis1, axis2, none));
+    TEST_ASSERT_TRUE(jcal_sign_obeys(JCAL_SIGN_OPPOSITE, axis1, axis2, none));
+    TEST_ASSERT_TRUE(jcal_sign_obeys(JCAL_SIGN_SAME, axis1, axis2, kept));
+    TEST_ASSERT_FALSE(jcal_sign_obeys(JCAL_SIGN_OPPOSITE, axis1, axis2, kept));
+    TEST_ASSERT_FALSE(jcal_sign_obeys(JCAL_SIGN_SAME, axis2, axis1, none));
+    TEST_ASSERT_TRUE(jcal_sign_obeys(JCAL_SIGN_SAME, axis2, axis1, kept));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -93,5 +109,6 @@ int main(void)
     RUN_TEST(a_sign_that_is_kept_outlives_a_tie_towards_a_direction);
     RUN_TEST(a_sign_is_kept_once);
     RUN_TEST(a_direction_is_zero_or_finite);
+    RUN_TEST(a_hint_outlives_a_tie);
     return UNITY_END();
 }
