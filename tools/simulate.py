@@ -7,13 +7,12 @@
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "python"))
 
-from jointcal_tools.recordings import write_csv  # noqa: E402
+from jointcal_tools.recordings import timed_parts, write_simulated  # noqa: E402
 from jointcal_tools.simulate import MOTIONS, SEQUENTIAL, HingeSpec, scenario, simulate_hinge  # noqa: E402
 
 
@@ -42,8 +41,7 @@ def make_spec(args: argparse.Namespace) -> HingeSpec:
     if args.scenario:
         motions = scenario(args.scenario, args.duration)
     else:
-        named = [item.partition(":") for item in args.motion]
-        motions = tuple((name, float(seconds) if seconds else args.duration) for name, _, seconds in named)
+        motions = timed_parts(args.motion, args.duration)
     return HingeSpec(motions=motions, rate_hz=args.rate, seed=args.seed, noise_scale=args.noise_scale,
                      acc_bias=args.acc_bias, gyr_bias_deg_s=args.gyr_bias, soft_tissue_deg=args.soft_tissue,
                      wobble_deg=args.wobble, speed=args.speed, keep_transitions=not args.cut_transitions)
@@ -57,8 +55,7 @@ def main() -> int:
     except ValueError as error:
         parser.error(str(error))
     rec = simulate_hinge(spec)
-    write_csv(args.out, rec)
-    args.out.with_suffix(".json").write_text(json.dumps(rec.truth(), indent=1) + "\n")
+    write_simulated(args.out, rec, rec.truth())
     return 0
 
 

@@ -9,13 +9,12 @@ all axes of both joints, as in section 5 of [SAL15]. Without --orientations the 
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "python"))
 
-from jointcal_tools.recordings import write_csv  # noqa: E402
+from jointcal_tools.recordings import write_simulated  # noqa: E402
 from jointcal_tools.simulate_chain import ChainSpec, simulate_chain  # noqa: E402
 
 
@@ -43,8 +42,7 @@ def main() -> int:
                                    noise_scale=args.noise_scale, acc_bias=args.acc_bias, gyr_bias_deg_s=args.gyr_bias,
                                    soft_tissue_deg=args.soft_tissue, thigh_m=args.thigh_length, speed=args.speed))
     columns = rec.third_columns() | (rec.orientation_columns() if args.orientations else {})
-    write_csv(args.out, rec.first_two(), extra=columns)
-    args.out.with_suffix(".json").write_text(json.dumps(rec.truth(), indent=1) + "\n")
+    write_simulated(args.out, rec.first_two(), rec.truth(), columns)
     return 0
 
 

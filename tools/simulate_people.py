@@ -7,13 +7,12 @@
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "python"))
 
-from jointcal_tools.recordings import write_csv  # noqa: E402
+from jointcal_tools.recordings import timed_parts, without_orientations, write_simulated  # noqa: E402
 from jointcal_tools.simulate_people import ACTIVITIES, PLACES, PersonSpec, simulate_person  # noqa: E402
 
 
@@ -41,8 +40,7 @@ def make_parser() -> argparse.ArgumentParser:
 
 
 def make_spec(args: argparse.Namespace) -> PersonSpec:
-    named = [item.partition(":") for item in args.activity]
-    activities = tuple((name, float(seconds) if seconds else args.duration) for name, _, seconds in named)
+    activities = timed_parts(args.activity, args.duration)
     return PersonSpec(activities, args.joint, args.rate, args.seed, skin=args.skin, out_of_plane=args.out_of_plane,
                       loop=args.loop, bending_deg=args.bending, stiff=args.stiff, lag_s=args.lag,
                       noise_scale=args.noise_scale, gyr_bias_deg_s=args.gyr_bias, acc_bias=args.acc_bias)
@@ -56,10 +54,8 @@ def main() -> int:
     except ValueError as error:
         parser.error(str(error))
     rec = simulate_person(spec)
-    extra = {name: column for name, column in rec.extra_columns().items()
-             if not (args.no_orientations and name.startswith("q"))}
-    write_csv(args.out, rec, extra=extra)
-    args.out.with_suffix(".json").write_text(json.dumps(rec.truth(), indent=1) + "\n")
+    extra = rec.extra_columns()
+    write_simulated(args.out, rec, rec.truth(), without_orientations(extra) if args.no_orientations else extra)
     return 0
 
 

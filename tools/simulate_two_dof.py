@@ -7,13 +7,12 @@
 """
 
 import argparse
-import json
 import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "python"))
 
-from jointcal_tools.recordings import write_csv  # noqa: E402
+from jointcal_tools.recordings import timed_parts, without_orientations, write_simulated  # noqa: E402
 from jointcal_tools.simulate_two_dof import TWO_DOF_MOTIONS, Slip, TwoDofSpec, simulate_two_dof  # noqa: E402
 
 
@@ -51,8 +50,7 @@ def make_parser() -> argparse.ArgumentParser:
 
 
 def make_spec(args: argparse.Namespace) -> TwoDofSpec:
-    named = [item.partition(":") for item in args.motion]
-    motions = tuple((name, float(seconds) if seconds else args.duration) for name, _, seconds in named)
+    motions = timed_parts(args.motion, args.duration)
     return TwoDofSpec(motions=motions, rate_hz=args.rate, seed=args.seed, carrying_deg=args.carrying,
                       noise_scale=args.noise_scale, acc_bias=args.acc_bias, gyr_bias_deg_s=args.gyr_bias,
                       soft_tissue_deg=args.soft_tissue, heading_deg=args.heading, drift_deg_min=args.drift,
@@ -67,10 +65,8 @@ def main() -> int:
     except ValueError as error:
         parser.error(str(error))
     rec = simulate_two_dof(spec)
-    extra = {name: column for name, column in rec.extra_columns().items()
-             if not (args.no_orientations and name.startswith("q"))}
-    write_csv(args.out, rec, extra=extra)
-    args.out.with_suffix(".json").write_text(json.dumps(rec.truth(), indent=1) + "\n")
+    extra = rec.extra_columns()
+    write_simulated(args.out, rec, rec.truth(), without_orientations(extra) if args.no_orientations else extra)
     return 0
 
 

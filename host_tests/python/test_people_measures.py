@@ -12,7 +12,7 @@ sys.path.insert(0, str(ROOT / "tools" / "python"))
 
 from jointcal_tools import native, native_functional  # noqa: E402
 from jointcal_tools import quaternions as quat  # noqa: E402
-from jointcal_tools.measure import people_angles, people_flexion, people_hinge, people_never, people_sim  # noqa: E402
+from jointcal_tools.measure import judge, people_angles, people_flexion, people_hinge, people_never, people_sim  # noqa: E402
 from jointcal_tools.measure.people_faults import PeopleCase  # noqa: E402
 from jointcal_tools.recordings import Recording  # noqa: E402
 from jointcal_tools.simulate_people import PersonSpec, simulate_person  # noqa: E402
@@ -84,7 +84,7 @@ class HingeTest(unittest.TestCase):
 
     def test_pairing_is_wrong_if_one_axis_alone_is_turned(self):
         y = np.array([0.0, 1.0, 0.0])
-        errors, other = people_hinge.errors_of(track(axis1=np.array([y, y, -y]), axis2=np.array([y, -y, -y])), y, y)
+        errors, other = judge.axis_errors(track(axis1=np.array([y, y, -y]), axis2=np.array([y, -y, -y])), y, y)
         self.assertEqual(other.tolist(), [False, True, False])
         np.testing.assert_allclose(errors, 0.0)
 

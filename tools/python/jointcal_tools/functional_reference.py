@@ -630,16 +630,6 @@ class Joint:
 # The angle.
 
 
-def track_heading(heading: complex, z: complex, pair: tuple[Tick, Tick], point: Point, w: float) -> tuple[complex, complex]:
-    """(heading, sum) of this moment: the sum of what axes and levers say fades with 8 s; `w` is the motion over that of all sums."""
-    tick1, tick2 = pair
-    axis1, axis2 = complex_rows(tick1.turn, 1.0) @ point.j1, complex_rows(tick2.turn, 1.0) @ point.j2
-    centre1, centre2 = complex_rows(lever_rows(tick1), 1.0) @ point.x1, complex_rows(lever_rows(tick2), 1.0) @ point.x2
-    z = z / (1.0 + tick1.dt_s / 8.0)
-    z += w * (point.weight[TURN] * axis1 * np.conj(axis2) + point.weight[LEVER] * centre1 * np.conj(centre2))
-    return (complex(z / abs(z)) if abs(z) > 1e-19 else heading), complex(z)
-
-
 def flexion(point: Point, heading: complex, turn1: np.ndarray, turn2: np.ndarray) -> float:
     """Twist of R1' Rz R2 about the axes, rad, from an arbitrary zero."""
     relative = turn1.T @ about_z(heading) @ turn2

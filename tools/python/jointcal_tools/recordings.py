@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Mapping
+import json
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -63,3 +64,18 @@ def write_csv(path: str | Path, rec: Recording, digits: int = 9,
     table = np.column_stack([rec.t_s, rec.gyr1, rec.acc1, rec.gyr2, rec.acc2, *extra.values()])
     np.savetxt(path, table, fmt=f"%.{digits}g", delimiter=",", newline="\n",
                header=",".join(("t_s", *IMU_COLUMNS, *extra)), comments="")
+
+
+def write_simulated(path: Path, rec: Recording, truth: Mapping, extra: Mapping[str, np.ndarray] | None = None) -> None:
+    """Write a simulated recording as CSV and its truth beside it as .json."""
+    write_csv(path, rec, extra=extra)
+    path.with_suffix(".json").write_text(json.dumps(truth, indent=1) + "\n")
+
+
+def without_orientations(columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    return {name: column for name, column in columns.items() if not name.startswith("q")}
+
+
+def timed_parts(items: Iterable[str], seconds: float) -> tuple[tuple[str, float], ...]:
+    """Of NAME[:SECONDS] each; `seconds` where none are named."""
+    return tuple((name, float(own) if own else seconds) for name, _, own in (item.partition(":") for item in items))

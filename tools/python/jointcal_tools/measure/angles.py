@@ -11,10 +11,11 @@ from pathlib import Path
 import numpy as np
 
 from .. import native, native_two_dof
-from ..recordings import IMU_COLUMNS
+from ..recordings import write_csv
 from . import optical
 from .harness import Report, Settings, Skipped, median, number, quantile, run_jobs
 from .judge import available, cut, line_angle_deg, nominal_axes, recording
+from .people_flexion import wrapped_deg
 
 TITLE = "Joint angles"
 TWO_DOF = ("rig_2D_01", "rig_2D_02", "rig_2D_05")
@@ -54,21 +55,15 @@ def program() -> Path:
     return path
 
 
-def run_program(folder: Path, name: str, *arguments: str) -> np.ndarray:
-    """Angles (N, columns - 1) in degrees; NaN where the row is empty."""
-    joint = "hinge" if name in HINGES else "two-dof"
-    out = folder / f"out_{name}.csv"
-    result = subprocess.run([program(), "angles", folder / f"{name}.csv", "--joint", joint, "--out", out, *arguments],
-                            capture_output=True, text=True)
+def run_program(recording_file: Path, joint: str, *arguments: str | Path) -> np.ndarray:
+    """Angles (N, columns - 1) of `jointcal angles` in degrees; NaN where the row is empty."""
+    out = recording_file.with_suffix(".angles.csv")
+    result = subprocess.run([program(), "angles", recording_file, "--joint", joint, "--out", out, *arguments], capture_output=True, text=True)
     if result.returncode not in (0, 3):
-        raise RuntimeError(f"jointcal angles {name}: {result.stderr}")
+        raise RuntimeError(f"jointcal angles {recording_file.stem}: {result.stderr}")
     with out.open(newline="") as file:
         rows = list(csv.reader(file))[1:]
     return np.array([[float(cell) if cell else np.nan for cell in row[1:]] for row in rows])
-
-
-def wrapped_deg(angle: np.ndarray) -> np.ndarray:
-    return np.mod(angle + 180.0, 360.0) - 180.0
 
 
 def errors_deg(found: np.ndarray, truth: np.ndarray, good: np.ndarray) -> np.ndarray:
@@ -103,13 +98,6 @@ def optical_angles(name: str) -> tuple[np.ndarray, np.ndarray, dict]:
     return np.degrees(angles), good, facts
 
 
-def write_recording(path: Path, name: str, q: np.ndarray) -> None:
-    rec = recording(name)
-    table = np.column_stack([rec.t_s, rec.gyr1, rec.acc1, rec.gyr2, rec.acc2, q])
-    np.savetxt(path, table, fmt="%.9g", delimiter=",", header=",".join(("t_s", *IMU_COLUMNS, *ORIENTATION_COLUMNS)),
-               comments="")
-
-
 def measure_recording(name: str) -> dict:
     rec, q = recording(name), orientations(name)
     truth, good, facts = optical_angles(name)
@@ -118,12 +106,13 @@ def measure_recording(name: str) -> dict:
     found = {"name": name, "line": line, "facts": facts, "rms": {}}
     with tempfile.TemporaryDirectory() as temporary:
         folder = Path(temporary)
-        write_recording(folder / f"{name}.csv", name, q)
+        path, joint = folder / f"{name}.csv", "hinge" if name in HINGES else "two-dof"
+        write_csv(path, rec, extra=dict(zip(ORIENTATION_COLUMNS, q.T, strict=True)))
         (folder / "line.json").write_text(json.dumps(line) + "\n")
-        alone = run_program(folder, name)
+        alone = run_program(path, joint)
         given = np.full_like(alone, np.nan)
         if line["status"] == "ready":  # the program refuses others
-            given = run_program(folder, name, "--calibration", str(folder / "line.json"))
+            given = run_program(path, joint, "--calibration", folder / "line.json")
         runs = {"first 20 s": given, "on its own": alone}
     for way, angles in runs.items():
         found["rms"][way] = [window_rms(errors_deg(angles[begin:, k], truth[begin:, k], good[begin:]), rec.rate_hz)

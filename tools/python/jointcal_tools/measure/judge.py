@@ -97,9 +97,13 @@ class Verdict:
         return (self.errors_deg[index] <= self.bounds_deg[index]) & ~self.wrong_sign[index]
 
 
-def judge(track: Track, axis1: np.ndarray, axis2: np.ndarray) -> Verdict:
-    axis1, axis2 = axis1 / np.linalg.norm(axis1), axis2 / np.linalg.norm(axis2)
+def axis_errors(track: Track, axis1: np.ndarray, axis2: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(M, 2) angles of a track's axes, of either kind, to unit axes, deg, and (M,) whether the pairing is the other one."""
     errors = np.column_stack([line_angle_deg(track.axis1, axis1), line_angle_deg(track.axis2, axis2)])
-    wrong = (track.axis1 @ axis1) * (track.axis2 @ axis2) < 0.0
+    return errors, (track.axis1 @ axis1) * (track.axis2 @ axis2) < 0.0
+
+
+def judge(track: Track, axis1: np.ndarray, axis2: np.ndarray) -> Verdict:
+    errors, wrong = axis_errors(track, axis1 / np.linalg.norm(axis1), axis2 / np.linalg.norm(axis2))
     return Verdict(track.t_s, track.ready, errors, wrong, track.bounds_deg, track.paper_accepted,
                    int(track.reason[-1]))

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import subprocess
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from ..recordings import IMU_COLUMNS, Recording
+from ..recordings import write_csv
 from ..simulate_people import PersonSpec, simulate_person
-from .angles import program
+from .angles import program, run_program
 from .harness import Report, Settings, median, number, percent, quantile, run_jobs
 from .judge import available
 from .people_flexion import LEAST_SAMPLES, apart_deg
@@ -56,21 +55,6 @@ def windows(t_s: np.ndarray, error_deg: np.ndarray, bound_deg: np.ndarray) -> tu
     return errors, bounds
 
 
-def run_program(folder: Path, recording: Path, *arguments: str) -> np.ndarray:
-    """Rows (N, columns - 1) of `jointcal angles --joint hinge`, deg; NaN where empty."""
-    out = folder / "angles.csv"
-    result = subprocess.run([program(), "angles", recording, "--joint", "hinge", "--out", out, *arguments],
-                            capture_output=True, text=True)
-    if result.returncode not in (0, 3):
-        raise RuntimeError(f"jointcal angles {recording}: {result.stderr}")
-    return np.atleast_2d(np.genfromtxt(out, delimiter=",", skip_header=1))[:, 1:]
-
-
-def write_recording(path: Path, rec: Recording) -> None:
-    table = np.column_stack([rec.t_s, rec.gyr1, rec.acc1, rec.gyr2, rec.acc2])
-    np.savetxt(path, table, fmt="%.9g", delimiter=",", header=",".join(("t_s", *IMU_COLUMNS)), comments="")
-
-
 def measure_one(name: str) -> Windows:
     if name in SIMULATED:
         rec = simulate_person(SIMULATED[name])
@@ -80,9 +64,9 @@ def measure_one(name: str) -> Windows:
         reference = rec.flexion_deg
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "recording.csv"
-        write_recording(path, rec)
-        best = run_program(Path(folder), path, "--accept", "best")
-        angle = best[:, 0] if name in REPORTED else run_program(Path(folder), path)[:, 0]
+        write_csv(path, rec)
+        best = run_program(path, "hinge", "--accept", "best")
+        angle = best[:, 0] if name in REPORTED else run_program(path, "hinge")[:, 0]
     t_s, bound = rec.t_s - rec.t_s[0], best[:, 1]
     if name in REPORTED:
         angle = np.where(t_s >= BEST_FROM_S, angle, np.nan)

@@ -25,11 +25,11 @@ from .. import quaternions as quat
 from ..jets import Clock
 from ..recordings import Recording
 from ..simulate import ACC_STD_M_S2, GRAVITY_M_S2, GYR_STD_RAD_S, gauss_smooth, random_unit
-from ..simulate_people import BLEND_S, PersonSpec, simulate_person
+from ..simulate_people import ACTIVITIES, BLEND_S, PersonSpec, simulate_person
 from . import optical, people_joints
 from .faults import Case, choose, quat_matrix, resting_signals, scaled, signals, which_sensors, with_sensor
 from .judge import available, cut, line_angle_deg, nominal_axes, recording
-from .people_joints import JOINTS, motion_s, people_joint
+from .people_joints import JOINTS, motion_before, people_joint
 
 LENGTH_S = 26.0
 MOVING_S = 5.0  # seconds of motion that a start should have, if the recording has such a start
@@ -89,8 +89,7 @@ def whole(name: str) -> Recording:
 
 @functools.cache
 def moved_s(name: str) -> np.ndarray:
-    """(N + 1,) seconds of motion before each sample."""
-    return np.concatenate([[0.0], motion_s(whole(name))])
+    return motion_before(whole(name))
 
 
 def span(rng: np.random.Generator, name: str, extra_s: float = 0.0) -> tuple[int, int]:
@@ -224,7 +223,7 @@ def other_shank(rng: np.random.Generator) -> PeopleCase:
 def other_shank_simulated(rng: np.random.Generator) -> PeopleCase:
     """Walking and running: the shank half a cycle late is that of the other leg."""
     spec = random_spec(rng, ("walk", "run"), "knee")
-    cycle_hz = 0.92 if spec.activities[0][0] == "walk" else 1.38
+    cycle_hz = ACTIVITIES[spec.activities[0][0]].cycle_hz
     return replace(person(replace(spec, lag_s=0.5 / cycle_hz)), axis1=None, axis2=None)
 
 

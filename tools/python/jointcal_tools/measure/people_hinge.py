@@ -11,7 +11,7 @@ from .. import native_functional as functional
 from ..recordings import Recording
 from . import people_joints as people
 from .harness import Report, Settings, Skipped, median, number, percent, run_jobs
-from .judge import available, cut, line_angle_deg
+from .judge import available, axis_errors, cut
 from .people_flexion import apart_rms_deg, heading_at_samples, twist_deg
 
 TITLE = "People's joints as hinges"
@@ -45,8 +45,7 @@ def names_of(*kinds: str) -> list[str]:
 
 @functools.cache
 def motion_before(name: str) -> np.ndarray:
-    """(N + 1,) seconds of motion before each sample, and of all."""
-    return np.concatenate([[0.0], people.motion_s(people.people_joint(name))])
+    return people.motion_before(people.people_joint(name))
 
 
 # Whole recordings.
@@ -126,7 +125,6 @@ STATUS = ("collecting", "ambiguous", "ready", "moved")
 @dataclass
 class Start:
     name: str
-    begin_s: float
     warm: bool
     ready_motion_s: float  # since the start when first ready for flexion; infinite if never
     motion_s: float  # there is, 30 s at most
@@ -144,23 +142,10 @@ def whole_axes(name: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     return track.axis1[-1], track.axis2[-1], track.bounds_deg[-1]
 
 
-@functools.cache
-def has_truth(name: str) -> bool:
-    """Whether there is something to hold an angle against: a reference, or a recording that is ready as a whole."""
-    rec = people.people_joint(name)
-    return rec.flexion_deg is not None or bool(functional.run(rec, either=True).ready[-1])
-
-
 def settled(rec: Recording, begin: int) -> int | None:
     """The sample from which filters run before a warm start at `begin`; None if there is too little before it."""
     before_s = rec.t_s[begin] - rec.t_s[0]
     return int(np.searchsorted(rec.t_s, rec.t_s[begin] - SETTLED_S[1] - 1e-6)) if before_s >= SETTLED_S[0] - 1e-6 else None
-
-
-def errors_of(track: functional.Track, axis1: np.ndarray, axis2: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(M, 2) angles to the axes, and (M,) whether the pairing is the other one."""
-    errors = np.column_stack([line_angle_deg(track.axis1, axis1), line_angle_deg(track.axis2, axis2)])
-    return errors, (track.axis1 @ axis1) * (track.axis2 @ axis2) < 0.0
 
 
 def judged_ticks(moved_s: np.ndarray, among: np.ndarray) -> list[int]:
@@ -202,12 +187,12 @@ def measure_start(job: tuple[str, int, bool]) -> Start | None:
     moved = motion_before(name)
     end = min(int(np.searchsorted(moved, moved[begin] + max(WITHIN_S))), len(rec))
     track = functional.run(cut(rec, first, end), either=True, begin=begin - first)
-    errors, other = errors_of(track, *whole_axes(name)[:2])
+    errors, other = axis_errors(track, *whole_axes(name)[:2])
     since = moved[first + track.sample] - moved[begin]
     ready, flexion = track.ready, track.ready & track.for_flexion
     off = [flexion_error_deg(name, first, begin - first, (track.axis1[k], track.axis2[k]), first + int(track.sample[k]) + 1)
            for k in judged_ticks(since, flexion)]
-    return Start(name, float(rec.t_s[begin] - rec.t_s[0]), warm, float(since[flexion.argmax()]) if flexion.any() else np.inf,
+    return Start(name, warm, float(since[flexion.argmax()]) if flexion.any() else np.inf,
                  float(moved[end] - moved[begin]), bool(ready.any()), bool((ready & other).any()),
                  bool((ready[:, None] & (errors > 2.0 * track.bounds_deg)).any()),
                  float(errors[ready].max()) if ready.any() else np.nan, [value for value in off if np.isfinite(value)])
@@ -227,7 +212,7 @@ def start_row(label: str, filters: str, starts: list[Start]) -> list:
             number(max(off, default=np.nan)), sum(value > FLEXION_WRONG_DEG for value in off)]
 
 
-def report_starts(report: Report, starts: list[Start]) -> None:
+def report_starts(report: Report, starts: list[Start], wholes: list[Whole]) -> None:
     report.text("## Starts\n\nA fresh instance every 10 s where the next 30 s hold at least 5 s of motion, until 30 s of motion. Cold: the "
                 f"sensors' filters start with it; warm: they have run for {SETTLED_S[0]:g} to {SETTLED_S[1]:g} s. Within: ready for flexion "
                 "(uncertainty at most 3 deg) within so much motion, of all starts; if so long: of those after which the recording holds that "
@@ -255,10 +240,12 @@ def report_starts(report: Report, starts: list[Start]) -> None:
     ready = [s for s in starts if s.ready]
     report.require_none("starts that are ready with the wrong pairing", sum(s.wrong_pairing for s in ready), len(ready))
     report.require_none("starts that are ready with an axis beyond twice its bound", sum(s.beyond for s in ready), len(ready))
+    # Something to hold an angle against: a reference, or a recording that is ready as a whole.
+    has_truth = {w.name: people.people_joint(w.name).flexion_deg is not None or bool(w.track.ready[-1]) for w in wholes}
     for label, is_mine, why in (("with a reference, or ready as a whole", True, ""), (
             "of recordings that are not ready as a whole and have no reference", False,
             "What it is held against are axes of a recording that says itself that they are uncertain")):
-        off = [value for s in starts for value in s.flexion_deg if has_truth(s.name) == is_mine]
+        off = [value for s in starts for value in s.flexion_deg if has_truth[s.name] == is_mine]
         wrong = sum(value > FLEXION_WRONG_DEG for value in off)
         if off:
             report.require(f"calibrations, ready for flexion, {label}, with a flexion error above {FLEXION_WRONG_DEG:g} deg",
@@ -306,7 +293,7 @@ def measure_part(job: tuple[str, int, int, float, bool]) -> PartVerdict | None:
     track = functional.run(cut(rec, first, end), either=True, begin=begin - first)
     if not len(track.t_s):
         return None
-    errors, other = errors_of(track, axis1, axis2)
+    errors, other = axis_errors(track, axis1, axis2)
     bounds = track.bounds_deg[-1]
     return PartVerdict(name, length_s, warm, bool((bounds < NO_BOUND_DEG).all()), bool(track.ready[-1]),
                        functional.reason_name(track.reason[-1]), bool(other[-1]), covered(errors[-1], bool(other[-1]), bounds, whole), errors[-1], bounds)
@@ -358,7 +345,7 @@ def measure(settings: Settings, report: Report) -> None:
     report_whole(report, wholes)
     every_s = QUICK_EVERY_S if settings.quick else EVERY_S
     begins = [(part.name, part.begin, warm) for part in people.parts(names, every_s) for _, warm in TEMPERATURES]
-    report_starts(report, [s for s in run_jobs(measure_start, begins, "people_hinge, starts", settings) if s])
+    report_starts(report, [s for s in run_jobs(measure_start, begins, "people_hinge, starts", settings) if s], wholes)
     lengths = PARTS_MOTION_S[1:] if settings.quick else PARTS_MOTION_S
     jobs = [(name, begin, end, length, warm) for name in names for length in lengths
             for begin, end in separate(motion_before(name), length) for _, warm in TEMPERATURES]

@@ -125,6 +125,11 @@ def motion_s(rec: Recording, knee: float = MOTION_RAD2_S2) -> np.ndarray:
     return np.cumsum(motion_weight(rec, knee)) / rec.rate_hz
 
 
+def motion_before(rec: Recording) -> np.ndarray:
+    """(N + 1,) seconds of motion before each sample, and of all."""
+    return np.concatenate([[0.0], motion_s(rec)])
+
+
 def parts(names: Sequence[str], every_s: float = 10.0, horizon_s: float = 30.0, least_s: float = 5.0) -> list[Part]:
     """Starts every `every_s` of the named joints with at least `least_s` of motion within `horizon_s`.
 
@@ -133,7 +138,7 @@ def parts(names: Sequence[str], every_s: float = 10.0, horizon_s: float = 30.0, 
     found = []
     for name in names:
         rec = people_joint(name)
-        t_s, moved = rec.t_s - rec.t_s[0], np.concatenate([[0.0], motion_s(rec)])
+        t_s, moved = rec.t_s - rec.t_s[0], motion_before(rec)
         for begin_s in np.arange(0.0, t_s[-1], every_s):
             begin, end = np.searchsorted(t_s, [begin_s - 1e-6, begin_s + horizon_s - 1e-6])
             amount = float(moved[end] - moved[begin])

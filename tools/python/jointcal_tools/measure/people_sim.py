@@ -14,7 +14,7 @@ from ..simulate_people import PersonRecording, PersonSpec, main_axes, simulate_p
 from . import people_joints as people
 from .faults import choose
 from .harness import Report, Settings, median, number, numbered, percent, quantile, run_jobs
-from .judge import line_angle_deg
+from .judge import axis_errors
 from .people_flexion import apart_rms_deg, twist_deg
 
 TITLE = "Simulated joints of people"
@@ -85,11 +85,6 @@ def sign_hint(axis1: np.ndarray, axis2: np.ndarray) -> str:
     return "same" if main[0] * main[1] > 0.0 else "opposite"
 
 
-def is_other(track: functional.Track, axis1: np.ndarray, axis2: np.ndarray) -> np.ndarray:
-    """(M,) whether the pairing is the wrong one."""
-    return (track.axis1 @ axis1) * (track.axis2 @ axis2) < 0.0
-
-
 def said(track: functional.Track) -> str:
     if track.ready[-1]:
         return "ready"
@@ -111,8 +106,7 @@ def measure_run(job: tuple[str, int]) -> Outcome:
     axes = (rec.axis1, rec.axis2) if kind in RIGID else main_axes(rec)  # by steps of the samples: not exact enough for rigid mounts
     plain = Recording(rec.t_s, rec.gyr1, rec.acc1, rec.gyr2, rec.acc2)
     track = functional.run(plain, either=True)
-    errors = np.column_stack([line_angle_deg(track.axis1, axes[0]), line_angle_deg(track.axis2, axes[1])])
-    other, ready = is_other(track, *axes), track.ready
+    (errors, other), ready = axis_errors(track, *axes), track.ready
     first = int(track.sample[ready.argmax()]) if ready.any() else None
     bones, sensors = flexion_rms(rec, track, first) if first is not None else (np.nan, np.nan)
     outcome = Outcome(kind, index, spec, float(people.motion_s(plain)[first]) if first is not None else np.inf, said(track),
@@ -121,7 +115,7 @@ def measure_run(job: tuple[str, int]) -> Outcome:
                       errors[-1], track.bounds_deg[-1], bool(other[-1]), bones, sensors)
     if kind in SLOW:
         told = functional.run(plain, either=True, sign_hint=sign_hint(rec.axis1, rec.axis2))
-        outcome.hinted, outcome.hinted_wrong = said(told), bool((told.ready & is_other(told, *axes)).any())
+        outcome.hinted, outcome.hinted_wrong = said(told), bool((told.ready & axis_errors(told, *axes)[1]).any())
     return outcome
 
 
@@ -143,11 +137,10 @@ def row_of(label: str, mine: list[Outcome]) -> list:
             number(median([o.sensors_deg for o in ready])), number(quantile([o.sensors_deg for o in ready], 1.0)),
             ", ".join(f"{name} {count}" for name, count in reasons.most_common(3))]
 
+RIGHTLY_SAID = ("ready", "sign_open, move_faster")  # of slow motion, without a hint
+
 
 def report_slow(report: Report, slow: list[Outcome]) -> None:
-    def answer(text: str) -> str:
-        return "ready" if text == "ready" else ("sign_open, move_faster" if text == "sign_open, move_faster" else "other")
-
     report.text("## Slow motion\n\nWhat is said at the end without a hint, and with the right sign hint; wrong: ready with the wrong pairing "
                 "at any time. Told: not ready and told to move faster because the sign is open, or ready, rightly, with the hint or without.")
     rows, told = [], 0
@@ -157,7 +150,7 @@ def report_slow(report: Report, slow: list[Outcome]) -> None:
             continue
         pairs = Counter((o.status, o.hinted) for o in mine)
         rows += [[kind, without, hinted, count] for (without, hinted), count in pairs.most_common()]
-        told += sum("other" not in (answer(o.status),) or o.hinted == "ready" for o in mine)
+        told += sum(o.status in RIGHTLY_SAID or o.hinted == "ready" for o in mine)
     report.table(["class", "without", "with a hint", "runs"], rows)
     report.require_none("slow motion: ready with the wrong pairing, with a hint or without",
                         sum(o.wrong_pairing or o.hinted_wrong for o in slow), len(slow))
