@@ -264,25 +264,31 @@ static void a_short_rest_is_none(void)
     TEST_ASSERT_TRUE(bias_error_deg(&run, none) < 0.1);
 }
 
+/* Reading k of a sensor in motion, with a bias. */
+static void put_moving(run_t *run, motion_t *motion, int k, const double bias[3])
+{
+    const double turn_at[3] = {0.3, 0.2, 0.1};
+    const double place[3] = {0.05, -0.02, 0.03};
+    const motion_mount_t mount = motion_mount(turn_at, place, 0.0);
+    double gyr[3];
+    double acc[3];
+    double turn[9];
+    motion_to(motion, k * DT_S);
+    motion_read(motion, &mount, gyr, acc, turn);
+    for (int i = 0; i < 3; ++i) {
+        gyr[i] += bias[i];
+    }
+    (void)put(run, gyr, acc);
+}
+
 /* No rest anywhere: the horizontal parts are told by the corrections, and all three while the sensor turns. 1.15 deg/s before. */
 static void in_motion_the_bias_is_found_too(void)
 {
     run_t run;
     begin(&run);
     motion_t motion = motion_begin(1.5, 2.0, 1.0);
-    const double turn_at[3] = {0.3, 0.2, 0.1};
-    const double place[3] = {0.05, -0.02, 0.03};
-    const motion_mount_t mount = motion_mount(turn_at, place, 0.0);
     for (int k = 0; k < 12000; ++k) {
-        double gyr[3];
-        double acc[3];
-        double turn[9];
-        motion_to(&motion, k * DT_S);
-        motion_read(&motion, &mount, gyr, acc, turn);
-        for (int i = 0; i < 3; ++i) {
-            gyr[i] += BIAS[i];
-        }
-        (void)put(&run, gyr, acc);
+        put_moving(&run, &motion, k, BIAS);
         const double error = bias_error_deg(&run, BIAS);
         TEST_ASSERT_TRUE((k < 6000) || (error < 1.15 / 2.0));
         TEST_ASSERT_TRUE((k < 11000) || (error < 1.15 / 4.0));
@@ -293,18 +299,10 @@ static void a_bias_is_never_larger_than_two_degrees_a_second(void)
 {
     run_t run;
     begin(&run);
+    const double large[3] = {6.0 * DOUBLE_DEG, 0.0, 0.0};
     motion_t motion = motion_begin(1.5, 2.0, 1.0);
-    const double turn_at[3] = {0.3, 0.2, 0.1};
-    const double place[3] = {0.05, -0.02, 0.03};
-    const motion_mount_t mount = motion_mount(turn_at, place, 0.0);
     for (int k = 0; k < 6000; ++k) {
-        double gyr[3];
-        double acc[3];
-        double turn[9];
-        motion_to(&motion, k * DT_S);
-        motion_read(&motion, &mount, gyr, acc, turn);
-        gyr[0] += 6.0 * DOUBLE_DEG;
-        (void)put(&run, gyr, acc);
+        put_moving(&run, &motion, k, large);
         const jcal_vec3_t b = jcal_sensor_gyr_bias(&run.sensor);
         TEST_ASSERT_TRUE(fabsf(b.x) <= 2.0001f * (float)DOUBLE_DEG);
         TEST_ASSERT_TRUE(fabsf(b.y) <= 2.0001f * (float)DOUBLE_DEG);
