@@ -7,6 +7,9 @@
 /// that is worth in degrees of flexion. The functional model speaks only where the rates show that the segments are not rigid;
 /// and a rigid hinge is believed only if the functional model has nothing against it.
 ///
+/// A joint with two axes is a hinge as long as only one of them moves: ready then holds for that motion, and ends, with more_axes or
+/// does_not_fit, within seconds after the other axis begins to move.
+///
 /// How it is used:
 ///
 ///     static jcal_hinge_auto_t knee;

@@ -51,6 +51,7 @@ jcal_status_t jcal_hinge_auto_init(jcal_hinge_auto_t *self, const jcal_hinge_aut
     const jcal_functional_config_t functional = functional_config(config);
     jcal_clear(&self->inbox, sizeof self->inbox);
     self->believed = false;
+    self->person = false;
     self->objection = (uint8_t)JCAL_REASON_UNCERTAIN;
     jcal_hinge_auto_begin_anew(self);
     const jcal_status_t status = jcal_hinge_init(&self->rigid, &config->hinge);

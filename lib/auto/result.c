@@ -11,10 +11,6 @@
 #include <math.h>
 #include <stddef.h>
 
-/// Where the rates agree about an axis to this share of themselves, the segments are rigid, and the rigid model will find the axis
-/// better than the functional one, or has a reason not to.
-#define RIGID_RATE_SHARE 0.08f
-
 /// The rigid model says ready, and the functional one objects.
 static void say_objection(jcal_head_t *head, jcal_reason_t reason)
 {
@@ -22,12 +18,6 @@ static void say_objection(jcal_head_t *head, jcal_reason_t reason)
     head->reason = reason;
     head->weak = JCAL_WEAK_AXIS1;
     head->hint = (reason == JCAL_REASON_DOES_NOT_FIT) ? JCAL_HINT_CHECK_SENSORS : JCAL_HINT_MOVE_JOINT;
-}
-
-/// True if the rates say that the segments are not rigid, so that the functional model is the one to ask.
-static bool is_person(const jcal_functional_result_t *functional)
-{
-    return functional->has_axes && (functional->rate_share > RIGID_RATE_SHARE);
 }
 
 /// The functional model's word in the form of a hinge's.
@@ -71,7 +61,7 @@ jcal_status_t jcal_hinge_auto_get(const jcal_hinge_auto_t *self, jcal_hinge_auto
     }
     const bool settled = (rigid->status == JCAL_READY) || (rigid->status == JCAL_MOVED);
     const bool unfit = functional.has_axes && (rigid->reason == JCAL_REASON_DOES_NOT_FIT);
-    if (!settled && (is_person(&functional) || (unfit && (functional.head.status != JCAL_READY)))) {
+    if (!settled && (self->person || (unfit && (functional.head.status != JCAL_READY)))) {
         out->model = JCAL_MODEL_FUNCTIONAL;
         say_functional(&functional, &out->hinge);
     }

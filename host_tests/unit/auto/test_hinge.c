@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Tests of jointcal/hinge_auto.h: a rigid hinge and one of a person, from readings to what is said and for what.
+#include "auto/judge.h"
 #include "jointcal/functional_pair.h"
 #include "jointcal/hinge_auto.h"
 
@@ -118,11 +119,9 @@ static void rigid_segments_are_the_rigid_models(void)
         TEST_ASSERT_EQUAL_INT(JCAL_FOR_AXES, result().ready_for);
         expect_axes_within(1.0, 0.0);
     }
-    const float usual = knee.functional.joint.point.size[JCAL_FAMILY_RATE];
-    knee.functional.joint.point.size[JCAL_FAMILY_RATE] =
-        0.04f; /* whatever the functional model thinks, this one is ready */
+    knee.person = true; /* whatever the rates say, this one is ready */
     TEST_ASSERT_EQUAL_INT(JCAL_MODEL_RIGID, result().model);
-    knee.functional.joint.point.size[JCAL_FAMILY_RATE] = usual;
+    knee.person = false;
     const jcal_hinge_auto_result_t now = result();
     TEST_ASSERT_TRUE(now.has_levers && now.heading.known && (now.bend_rad > 0.1f));
     TEST_ASSERT_TRUE((now.flexion_uncertainty_rad > 0.0f) &&
@@ -166,6 +165,30 @@ static void a_person_is_the_functional_models(void)
     TEST_ASSERT_EQUAL_FLOAT(functional.sign_margin, now.hinge.sign_margin);
     expect_axes_within(1.0, 0.0);
     expect_flexion(k + 1000u, k + 1500u, 2.0 * SKIN_RAD);
+}
+
+/* The rates that agree better for a while: what is ready is not given up for that; what is not ready is the rigid model's again. */
+static void a_calm_while_does_not_take_a_person_away(void)
+{
+    hinge.skin_rad = SKIN_RAD;
+    const uint32_t k = feed_until_ready(4000u);
+    float *const size = &knee.functional.joint.point.size[JCAL_FAMILY_RATE];
+    const float usual = *size;
+    const struct {
+        float share;
+        bool ready, person;
+    } cases[] = {{0.07f, true, true},   {0.05f, true, true},   {0.03f, true, false}, {0.07f, true, false},
+                 {0.09f, false, true},  {0.07f, false, false}, {0.09f, true, true},  {0.05f, true, true}};
+    for (size_t n = 0; n < sizeof cases / sizeof cases[0]; ++n) {
+        *size = cases[n].share * cases[n].share;
+        knee.functional.joint.verdict.status = (uint8_t)(cases[n].ready ? JCAL_READY : JCAL_COLLECTING);
+        jcal_hinge_auto_judge(&knee, 1000u + (uint64_t)k * PERIOD_US);
+        TEST_ASSERT_EQUAL_INT(cases[n].person, knee.person);
+        if (cases[n].ready) {
+            TEST_ASSERT_EQUAL_INT(cases[n].person ? JCAL_MODEL_FUNCTIONAL : JCAL_MODEL_RIGID, result().model);
+        }
+    }
+    *size = usual;
 }
 
 /* A limit that the axes of a person cannot hold leaves the angle, which can. */
@@ -348,12 +371,30 @@ static void a_stiff_body_with_a_vibrating_sensor_is_no_hinge(void)
     }
 }
 
+/* A hinge whose second accelerometer's components are not in the order of its gyroscope's: all rates are those of a hinge. */
+static void accelerometers_that_see_no_common_centre_are_no_hinge(void)
+{
+    bool rigid_was_ready = false;
+    bool centre_objected = false;
+    for (uint32_t k = 0u; k < 3000u; ++k) {
+        jcal_pair_t pair = pair_at(k);
+        const jcal_vec3_t acc = pair.imu2.acc_m_s2;
+        pair.imu2.acc_m_s2 = (jcal_vec3_t){acc.y, acc.x, acc.z};
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_auto_update(&knee, &pair));
+        rigid_was_ready = rigid_was_ready || (knee.rigid.verdict.status == (uint8_t)JCAL_READY);
+        centre_objected = centre_objected || (knee.objection == (uint8_t)JCAL_REASON_NOT_ONE_JOINT);
+        TEST_ASSERT_TRUE(result().ready_for == JCAL_FOR_NOTHING);
+    }
+    TEST_ASSERT_TRUE(rigid_was_ready && centre_objected);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(rigid_segments_are_the_rigid_models);
     RUN_TEST(the_angle_has_one_zero);
     RUN_TEST(a_person_is_the_functional_models);
+    RUN_TEST(a_calm_while_does_not_take_a_person_away);
     RUN_TEST(what_is_no_axis_may_be_good_for_the_angle);
     RUN_TEST(settings_reach_both_models);
     RUN_TEST(a_slip_begins_both_anew);
@@ -361,5 +402,6 @@ int main(void)
     RUN_TEST(orientations_are_of_the_sensor_that_is_asked_for);
     RUN_TEST(null_and_wrong_settings_are_errors);
     RUN_TEST(a_stiff_body_with_a_vibrating_sensor_is_no_hinge);
+    RUN_TEST(accelerometers_that_see_no_common_centre_are_no_hinge);
     return UNITY_END();
 }

@@ -36,6 +36,7 @@ from .simulate import ACC_STD_M_S2, GRAVITY_M_S2, GYR_STD_RAD_S, SMOOTH_STEP, ra
 RATE_RANGE_HZ = (40.0, 200.0)
 OCTAVES_DEG = (1.0, 1.2, 1.0, 0.6, 0.4, 0.25)  # of sensor against bone, rms, octaves from FIRST_OCTAVE_HZ on
 FIRST_OCTAVE_HZ = 0.3
+SKIN_SHAPE = (1.1, 0.74, 1.1)  # times that about x, y, z of the bone: least about y, the joint's axis; their mean square is 1
 RINGING_HZ = (3.5, 12.0)  # of skin after a heel strike
 JOLT_HZ = (5.0, 18.0)  # of bones
 STRIKE_LAG_RAD = 0.25  # of gait phase, from a heel strike to its middle
@@ -401,7 +402,7 @@ def skin_turn(spec: PersonSpec, index: int, clock: Clock, motion: Motion) -> Jet
     for k, deg in enumerate(OCTAVES_DEG):
         low_hz = FIRST_OCTAVE_HZ * 2.0**k
         rho = rho + jets.noise(rng, clock, (low_hz, 2.0 * low_hz), 3) * motion.skin * np.radians(deg)
-    rho = rho * amount
+    rho = jets.stack([rho[i] * (amount * share) for i, share in enumerate(SKIN_SHAPE)])
     if index == 0:
         share = rng.uniform(*IN_PHASE) * min(spec.skin, 1.0) if spec.in_phase is None else spec.in_phase
         own = [motion.angles[key] for key in ("roll", "pitch", "sway")]

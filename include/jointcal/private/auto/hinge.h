@@ -21,6 +21,7 @@ typedef struct {
     jcal_joint_heading_t heading;  ///< By the rigid model's axes, from when they were first believed.
     bool believed;                 ///< The rigid model is ready, and the functional one has nothing against it.
     uint8_t objection;             ///< What the functional model has against it, a jcal_reason_t.
+    bool person;                   ///< The rates say that the segments are not rigid.
     bool follows;                  ///< It was so once, and no sensor has moved since.
     bool has_zero;    ///< Either was ready once, and no sensor has moved since: the angle counts from `zero`.
     uint8_t zero[2];  ///< As of functional/twist.h.
