@@ -177,8 +177,8 @@ static void a_calm_while_does_not_take_a_person_away(void)
     const struct {
         float share;
         bool ready, person;
-    } cases[] = {{0.07f, true, true},   {0.05f, true, true},   {0.03f, true, false}, {0.07f, true, false},
-                 {0.09f, false, true},  {0.07f, false, false}, {0.09f, true, true},  {0.05f, true, true}};
+    } cases[] = {{0.07f, true, true},  {0.05f, true, true},   {0.03f, true, false}, {0.07f, true, false},
+                 {0.09f, false, true}, {0.07f, false, false}, {0.09f, true, true},  {0.05f, true, true}};
     for (size_t n = 0; n < sizeof cases / sizeof cases[0]; ++n) {
         *size = cases[n].share * cases[n].share;
         knee.functional.joint.verdict.status = (uint8_t)(cases[n].ready ? JCAL_READY : JCAL_COLLECTING);
