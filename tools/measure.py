@@ -38,6 +38,7 @@ MEASUREMENTS = {
     "bias": "what the bias states buy",
     "reference": "the stream engine beside float64, rig and simulated",
     "two_dof": "2-DoF joint: whole rig recordings, and every 5, 10, 20 s window",
+    "hinge_models": "rigid and functional model of a hinge on the rig, each alone and together",
     "hinge_orientations": "What orientations would add to a hinge: 27 first moments, in float64",
     "lai22": "the methods of LAI22 as they are: kinds of low-pass, how often they are wrong",
     "people": "a person's elbow and knee: repeatability of parts",
