@@ -5,6 +5,7 @@
 
 #include "functional/model.h"
 #include "jointcal/quat.h"
+#include "levers/levers.h"
 #include "math/chol_small.h"
 #include "math/plane.h"
 #include "math/scalar.h"
@@ -72,23 +73,12 @@ jcal_plane_t jcal_functional_turn_pull(const jcal_functional_sums_t *sums, const
     return out;
 }
 
-/// [1; -r1]' M [1; -r2], M (4 x 4).
-static float between4(const float *m, jcal_vec3_t r1, jcal_vec3_t r2)
-{
-    float row[4];
-    for (size_t i = 0u; i < 4u; ++i) {
-        const float *const at = &m[4u * i];
-        row[i] = at[0] - ((at[1] * r2.x) + (at[2] * r2.y) + (at[3] * r2.z));
-    }
-    return row[0] - ((row[1] * r1.x) + (row[2] * r1.y) + (row[3] * r1.z));
-}
-
 jcal_plane_t jcal_functional_lever_pull(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point,
                                         size_t b)
 {
     const float scale = point->weight[JCAL_FAMILY_LEVER] / jcal_max(sums->motion_s, FLT_MIN);
-    const jcal_plane_t out = {scale * between4(sums->block[b].lever_re, point->r1, point->r2),
-                              scale * between4(sums->block[b].lever_im, point->r1, point->r2)};
+    const jcal_plane_t pull = jcal_levers_pull(&sums->levers, b, point->r1, point->r2);
+    const jcal_plane_t out = {scale * pull.re, scale * pull.im};
     return out;
 }
 

@@ -7,9 +7,7 @@
 #include "jointcal/private/functional/point.h"
 #include "jointcal/private/functional/sums.h"
 
-/// r1, r2, lack and speed2 of `point` <- the levers that leave least, with X (4 x 4) of the lever residual.
-///
-/// A ridge of 0.5 % of the mean diagonal keeps directions in which nothing turned at zero. Cost: about 250 multiply-adds.
+/// r1, r2, lack and speed2 of `point` <- the levers that leave least, with X (4 x 4) of the lever residual (levers/levers.h).
 void jcal_functional_levers(const jcal_functional_sums_t *sums, const float *x, jcal_functional_point_t *point);
 
 #endif /* JCAL_FUNCTIONAL_LEVERS_H */

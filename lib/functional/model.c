@@ -3,18 +3,12 @@
 /// The sums seen from a solution. See functional/model.h.
 #include "functional/model.h"
 
+#include "levers/products.h"
 #include "math/scalar.h"
 #include "math/sym.h"
 
 /// Less motion than this, s, is none.
 #define MOTION_MIN_S 1e-6f
-
-void jcal_functional_turned(float *out, const float *re, const float *im, jcal_plane_t heading, size_t n)
-{
-    for (size_t i = 0u; i < n; ++i) {
-        out[i] += (heading.re * re[i]) - (heading.im * im[i]);
-    }
-}
 
 /// Row of spin1's element (a, i) and column of spin2's element (b, k) in the products of rates.
 static size_t rate_at(size_t a, size_t i, size_t b, size_t k)
@@ -80,15 +74,7 @@ void jcal_functional_cross_turn(const jcal_functional_sums_t *sums, const jcal_f
 {
     sum_of(x, sums->turn_up, sums->old_turn, 9u);
     for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
-        jcal_functional_turned(x, sums->block[b].turn_re, sums->block[b].turn_im, point->heading[b], 9u);
-    }
-}
-
-void jcal_functional_cross_lever(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, float *x)
-{
-    sum_of(x, sums->lever_up, sums->old_lever, 16u);
-    for (size_t b = 0u; b < JCAL_FUNCTIONAL_BLOCKS; ++b) {
-        jcal_functional_turned(x, sums->block[b].lever_re, sums->block[b].lever_im, point->heading[b], 16u);
+        jcal_products_turned(x, sums->block[b].turn_re, sums->block[b].turn_im, point->heading[b], 9u);
     }
 }
 

@@ -16,9 +16,6 @@
 
 #include <stddef.h>
 
-/// out (n) <- out + Re(heading (re + i im)).
-void jcal_functional_turned(float *out, const float *re, const float *im, jcal_plane_t heading, size_t n);
-
 /// out (3 x 3) <- out + sum of the horizontal rows of the products `rate` (9 x 9), turned by a heading. Cost: 54 multiply-adds.
 void jcal_functional_level_rates(float *out, const float *rate, jcal_plane_t heading);
 
@@ -28,10 +25,9 @@ void jcal_functional_free_rates(float *out, const float *rate, const float *turn
 /// out (3 x 3) <- the products of vertical rows of spin of merged blocks alone.
 void jcal_functional_old_rate_up(const jcal_functional_sums_t *sums, float *out);
 
-/// X of the three residuals with the headings and relative turns of `point`: (3 x 3), (3 x 3), (4 x 4).
+/// X of the first two residuals with the headings and relative turns of `point`: (3 x 3). That of the third: levers/levers.h.
 void jcal_functional_cross_turn(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, float *x);
 void jcal_functional_cross_rate(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, float *x);
-void jcal_functional_cross_lever(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, float *x);
 
 /// X of the rate residual with D = Rz(heading).
 void jcal_functional_cross_level(const jcal_functional_sums_t *sums, const jcal_functional_point_t *point, float *x);

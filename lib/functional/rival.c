@@ -9,6 +9,7 @@
 #include "functional/model.h"
 #include "functional/sums.h"
 #include "jointcal/vec3.h"
+#include "levers/levers.h"
 #include "math/clear.h"
 #include "math/scalar.h"
 
@@ -37,8 +38,8 @@ static void begin(jcal_functional_t *self)
     jcal_copy(other, &self->point, sizeof *other);
     other->j2 = jcal_vec3_scale(other->j2, -1.0f);
     float x[16];
-    jcal_functional_cross_lever(&self->sums, &self->point, x);
-    half_turned(x, self->sums.lever_up, 16u);
+    jcal_levers_cross(&self->sums.levers, self->point.heading, x);
+    half_turned(x, self->sums.levers.up, 16u);
     jcal_functional_levers(&self->sums, x, other);
 }
 

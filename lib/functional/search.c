@@ -7,6 +7,7 @@
 #include "functional/headings.h"
 #include "functional/levers.h"
 #include "functional/model.h"
+#include "levers/levers.h"
 #include "math/clear.h"
 #include "math/plane.h"
 
@@ -25,7 +26,7 @@ void jcal_functional_round(const jcal_functional_sums_t *sums, jcal_functional_p
 {
     if (part == 0u) {
         float x[16];
-        jcal_functional_cross_lever(sums, point, x);
+        jcal_levers_cross(&sums->levers, point->heading, x);
         jcal_functional_levers(sums, x, point);
     } else if (part == 1u) {
         jcal_functional_cross_t x;

@@ -5,6 +5,8 @@
 
 #include "functional/model.h"
 #include "jointcal/vec3.h"
+#include "levers/levers.h"
+#include "levers/products.h"
 #include "math/clear.h"
 
 #include <stddef.h>
@@ -12,25 +14,6 @@
 /// Length of a block, s; and the motion that one needs before it may be closed, s: with less its heading means nothing.
 #define BLOCK_S 5.0f
 #define BLOCK_MOTION_S 0.4f
-
-/// Column k of a matrix (3 x 3).
-static inline jcal_vec3_t column(const float *m, size_t k)
-{
-    const jcal_vec3_t out = {m[k], m[k + 3u], m[k + 6u]};
-    return out;
-}
-
-/// One product of columns: its vertical part, and the complex one of its horizontal parts, (x1 - i y1)(x2 + i y2).
-typedef struct {
-    float *up, *re, *im;
-} products_t;
-
-static inline void add_product(const products_t *to, size_t at, jcal_vec3_t a, jcal_vec3_t b)
-{
-    to->up[at] += a.z * b.z;
-    to->re[at] += (a.x * b.x) + (a.y * b.y);
-    to->im[at] += (a.x * b.y) - (a.y * b.x);
-}
 
 /// sum (3 x 3) <- sum + a b'.
 static void add_outer(float *sum, jcal_vec3_t a, jcal_vec3_t b)
@@ -49,9 +32,9 @@ static void add_outer(float *sum, jcal_vec3_t a, jcal_vec3_t b)
 /// sum (6, packed) <- sum + weight M' M, M (3 x 3).
 static void add_square(float *sum, float weight, const float *m)
 {
-    const jcal_vec3_t a = column(m, 0u);
-    const jcal_vec3_t b = column(m, 1u);
-    const jcal_vec3_t c = column(m, 2u);
+    const jcal_vec3_t a = jcal_column(m, 0u);
+    const jcal_vec3_t b = jcal_column(m, 1u);
+    const jcal_vec3_t c = jcal_column(m, 2u);
     sum[0] += weight * jcal_vec3_dot(a, a);
     sum[1] += weight * jcal_vec3_dot(b, a);
     sum[2] += weight * jcal_vec3_dot(b, b);
@@ -60,54 +43,17 @@ static void add_square(float *sum, float weight, const float *m)
     sum[5] += weight * jcal_vec3_dot(c, c);
 }
 
-/// sum (10, packed) <- sum + weight [U B]' [U B].
-static void add_lever(float *sum, float weight, const jcal_tick_t *tick)
-{
-    const jcal_vec3_t u = tick->velocity;
-    const jcal_vec3_t a = column(tick->lever, 0u);
-    const jcal_vec3_t b = column(tick->lever, 1u);
-    const jcal_vec3_t c = column(tick->lever, 2u);
-    sum[0] += weight * jcal_vec3_dot(u, u);
-    sum[1] += weight * jcal_vec3_dot(a, u);
-    sum[2] += weight * jcal_vec3_dot(a, a);
-    sum[3] += weight * jcal_vec3_dot(b, u);
-    sum[4] += weight * jcal_vec3_dot(b, a);
-    sum[5] += weight * jcal_vec3_dot(b, b);
-    sum[6] += weight * jcal_vec3_dot(c, u);
-    sum[7] += weight * jcal_vec3_dot(c, a);
-    sum[8] += weight * jcal_vec3_dot(c, b);
-    sum[9] += weight * jcal_vec3_dot(c, c);
-}
-
-static void add_levers(jcal_functional_sums_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2, float weight)
-{
-    add_lever(self->lever1, weight, tick1);
-    add_lever(self->lever2, weight, tick2);
-    const products_t to = {self->lever_up, self->block[0].lever_re, self->block[0].lever_im};
-    const jcal_vec3_t b0 = tick2->velocity;
-    const jcal_vec3_t b1 = column(tick2->lever, 0u);
-    const jcal_vec3_t b2 = column(tick2->lever, 1u);
-    const jcal_vec3_t b3 = column(tick2->lever, 2u);
-    for (size_t i = 0u; i < 4u; ++i) {
-        const jcal_vec3_t a = jcal_vec3_scale((i == 0u) ? tick1->velocity : column(tick1->lever, i - 1u), weight);
-        add_product(&to, 4u * i, a, b0);
-        add_product(&to, (4u * i) + 1u, a, b1);
-        add_product(&to, (4u * i) + 2u, a, b2);
-        add_product(&to, (4u * i) + 3u, a, b3);
-    }
-}
-
 static void add_turns(jcal_functional_sums_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2, float weight)
 {
-    const products_t to = {self->turn_up, self->block[0].turn_re, self->block[0].turn_im};
-    const jcal_vec3_t b0 = column(tick2->turn, 0u);
-    const jcal_vec3_t b1 = column(tick2->turn, 1u);
-    const jcal_vec3_t b2 = column(tick2->turn, 2u);
+    const jcal_products_t to = {self->turn_up, self->block[0].turn_re, self->block[0].turn_im};
+    const jcal_vec3_t b0 = jcal_column(tick2->turn, 0u);
+    const jcal_vec3_t b1 = jcal_column(tick2->turn, 1u);
+    const jcal_vec3_t b2 = jcal_column(tick2->turn, 2u);
     for (size_t i = 0u; i < 3u; ++i) {
-        const jcal_vec3_t a = jcal_vec3_scale(column(tick1->turn, i), weight);
-        add_product(&to, 3u * i, a, b0);
-        add_product(&to, (3u * i) + 1u, a, b1);
-        add_product(&to, (3u * i) + 2u, a, b2);
+        const jcal_vec3_t a = jcal_vec3_scale(jcal_column(tick1->turn, i), weight);
+        jcal_products_add(&to, 3u * i, a, b0);
+        jcal_products_add(&to, (3u * i) + 1u, a, b1);
+        jcal_products_add(&to, (3u * i) + 2u, a, b2);
     }
 }
 
@@ -152,7 +98,7 @@ void jcal_functional_sums_add(jcal_functional_sums_t *self, const jcal_tick_t *t
     self->block[0].time_s += tick1->dt_s;
     add_turns(self, tick1, tick2, weights->motion_s);
     add_rates(self, tick1, tick2, weights->spin);
-    add_levers(self, tick1, tick2, weights->motion_s);
+    jcal_levers_add(&self->levers, tick1, tick2, weights->motion_s);
 }
 
 bool jcal_functional_sums_full(const jcal_functional_sums_t *self)
@@ -165,11 +111,11 @@ void jcal_functional_sums_close(jcal_functional_sums_t *self, jcal_functional_po
     jcal_functional_block_t *const old = &self->block[1];
     if (old->motion_s > 0.0f) {
         const jcal_plane_t heading = point->heading[1];
-        jcal_functional_turned(self->old_turn, old->turn_re, old->turn_im, heading, 9u);
-        jcal_functional_turned(self->old_lever, old->lever_re, old->lever_im, heading, 16u);
+        jcal_products_turned(self->old_turn, old->turn_re, old->turn_im, heading, 9u);
         jcal_functional_level_rates(self->old_rate, old->rate, heading);
         jcal_functional_free_rates(self->rate_free, old->rate, point->turn[1]);
     }
+    jcal_levers_close(&self->levers, point->heading[1]); /* of a block without motion nothing is merged */
     jcal_copy(old, &self->block[0], sizeof *old);
     jcal_clear(&self->block[0], sizeof self->block[0]);
     point->heading[1] = point->heading[0];
@@ -199,6 +145,6 @@ void jcal_functional_sums_reverse(jcal_functional_sums_t *self)
         self->rate_free[i] += self->old_rate[i];
     }
     for (size_t i = 0u; i < 16u; ++i) {
-        self->old_lever[i] = -self->old_lever[i];
+        self->levers.old[i] = -self->levers.old[i];
     }
 }

@@ -9,6 +9,7 @@
 #include "joint/sign.h"
 #include "jointcal/functional.h"
 #include "jointcal/vec3.h"
+#include "levers/levers.h"
 #include "math/plane.h"
 #include "math/scalar.h"
 
@@ -59,16 +60,10 @@ typedef struct {
     jcal_vec3_t velocity1, velocity2;
 } seen_t;
 
-/// Velocity of the joint's centre: [U B][1; -r].
-static jcal_vec3_t centre_velocity(const jcal_tick_t *tick, jcal_vec3_t r)
-{
-    return jcal_vec3_sub(tick->velocity, jcal_turn_times(tick->lever, r));
-}
-
 static seen_t seen_by(const jcal_functional_point_t *point, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
 {
     const seen_t out = {jcal_turn_times(tick1->turn, point->j1), jcal_turn_times(tick2->turn, point->j2),
-                        centre_velocity(tick1, point->r1), centre_velocity(tick2, point->r2)};
+                        jcal_levers_velocity(tick1, point->r1), jcal_levers_velocity(tick2, point->r2)};
     return out;
 }
 

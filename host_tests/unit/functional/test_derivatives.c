@@ -93,7 +93,7 @@ static double cost(const place_t *at)
         const jcal_functional_block_t *const block = &sums->block[b];
         const double angle = at->heading[b];
         const float *const turns[2] = {block->turn_re, block->turn_im};
-        const float *const levers[2] = {block->lever_re, block->lever_im};
+        const float *const levers[2] = {sums->levers.block[b].re, sums->levers.block[b].im};
         turn -= between_turned(turns, angle, j1, j2, 3);
         lever -= between_turned(levers, angle, x1, x2, 4);
         const double *const d = at->turn[b];

@@ -14,6 +14,7 @@
 #include "joint/sign.h"
 #include "jointcal/functional.h"
 #include "jointcal/quat.h"
+#include "levers/levers.h"
 
 #include <math.h>
 #include <string.h>
@@ -92,7 +93,7 @@ static void go_to(int p)
         memcpy(point->turn[b], &g[16 + 9 * b], sizeof point->turn[b]);
     }
     float x[16];
-    jcal_functional_cross_lever(&joint.sums, point, x);
+    jcal_levers_cross(&joint.sums.levers, point->heading, x);
     jcal_functional_levers(&joint.sums, x, point);
     measure();
 }
@@ -140,7 +141,7 @@ static void cross_products(void)
         float lever[16];
         float level[9];
         jcal_functional_cross(&joint.sums, &joint.point, &x);
-        jcal_functional_cross_lever(&joint.sums, &joint.point, lever);
+        jcal_levers_cross(&joint.sums.levers, joint.point.heading, lever);
         jcal_functional_cross_level(&joint.sums, &joint.point, level);
         expect(&golden_cross[p][0], x.turn, 9, SUM_TOL, 0.0);
         expect(&golden_cross[p][9], x.rate, 9, SUM_TOL, 0.0);

@@ -6,6 +6,7 @@
 #include "functional/rival.h"
 #include "functional/sums.h"
 #include "functional/track.h"
+#include "levers/levers.h"
 #include "unit/functional/fixture.h"
 
 #include <stddef.h>
@@ -407,18 +408,18 @@ static void a_wrong_pairing_is_turned_back_with_what_was_merged(void)
         float now[34];
         jcal_functional_cross_turn(&joint->sums, &joint->point, was);
         jcal_functional_cross_level(&joint->sums, &joint->point, &was[9]);
-        jcal_functional_cross_lever(&joint->sums, &joint->point, &was[18]);
+        jcal_levers_cross(&joint->sums.levers, joint->point.heading, &was[18]);
         joint->search.trial = joint->point;
         joint->search.trial.j2 = jcal_vec3_scale(joint->point.j2, -1.0f);
         jcal_functional_turn_round(joint);
         jcal_functional_cross_turn(&joint->sums, &joint->point, now);
         jcal_functional_cross_level(&joint->sums, &joint->point, &now[9]);
-        jcal_functional_cross_lever(&joint->sums, &joint->point, &now[18]);
+        jcal_levers_cross(&joint->sums.levers, joint->point.heading, &now[18]);
         const float rounding = 1e-5f;
         expect_half_turned(was, joint->sums.turn_up, now, 9, rounding * joint->sums.motion_s);
         expect_half_turned(&was[9], joint->sums.rate_up, &now[9], 9, rounding * joint->sums.rate2);
-        expect_half_turned(&was[18], joint->sums.lever_up, &now[18], 16,
-                           rounding * (joint->sums.lever1[9] + joint->sums.lever2[9]) * 10.0f);
+        expect_half_turned(&was[18], joint->sums.levers.up, &now[18], 16,
+                           rounding * (joint->sums.levers.own1[9] + joint->sums.levers.own2[9]) * 10.0f);
         TEST_ASSERT_TRUE(axes_error_deg(&run) > 150.0);
         run_for(&run, 6.0); /* it turns back, or what it leaves is taken for a slip and all is learnt anew */
         TEST_ASSERT_TRUE(axes_error_deg(&run) < 1.0);
