@@ -98,7 +98,7 @@ static jcal_reason_t find_objection(const jcal_functional_t *self, float slack)
 static jcal_reason_t find_reason(const jcal_functional_t *self, float slack, jcal_reason_t against)
 {
     const jcal_functional_verdict_t *const verdict = &self->verdict;
-    if (self->gravity_off > (slack * GRAVITY_OFF_MAX)) {
+    if (self->ticks.gravity_off > (slack * GRAVITY_OFF_MAX)) {
         return JCAL_REASON_GRAVITY_OFF;
     }
     if ((slack * self->sums.motion_s) < MOTION_MIN_S) {

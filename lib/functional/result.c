@@ -47,8 +47,8 @@ jcal_status_t jcal_functional_get(const jcal_functional_t *self, jcal_functional
     out->head.weak = (jcal_weak_t)verdict->weak;
     out->head.hint = (jcal_hint_t)verdict->hint;
     out->head.reason = (jcal_reason_t)verdict->reason;
-    out->head.samples = self->ticks;
-    out->head.t_us = self->last_us;
+    out->head.samples = self->ticks.count;
+    out->head.t_us = self->ticks.last_us;
     out->has_axes = self->search.has_estimate;
     const bool unknown = !verdict->is_one_axis;
     out->uncertainty1_rad = unknown ? JCAL_BOUND_UNKNOWN_RAD : verdict->bound1_rad;
@@ -57,7 +57,7 @@ jcal_status_t jcal_functional_get(const jcal_functional_t *self, jcal_functional
     if (out->has_axes) {
         say_axes(self, out);
     }
-    out->gravity_off_m_s2 = self->gravity_off;
+    out->gravity_off_m_s2 = self->ticks.gravity_off;
     const bool ready = out->head.status == JCAL_READY;
     out->for_axes = ready && verdict->for_axes;
     out->for_flexion = ready && verdict->for_flexion;

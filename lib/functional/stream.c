@@ -11,6 +11,7 @@
 #include "joint/sign.h"
 #include "jointcal/functional.h"
 #include "jointcal/vec3.h"
+#include "levers/ticks.h"
 #include "math/clear.h"
 #include "math/scalar.h"
 #include "math/sphere.h"
@@ -19,10 +20,6 @@
 #include <stddef.h>
 
 #define MICROSECONDS 1e-6f
-
-/// Squared rates of both sensors at which a moment counts half, (rad/s)^2, and the time that they are smoothed over, s.
-#define REST_RATE2 0.3f
-#define RATE_SMOOTHING_S 0.1f
 
 /// Motion before anything is estimated, s.
 #define MOTION_FIRST_S 0.7f
@@ -41,11 +38,6 @@
 #define PRICE_READY 4.0f
 /// Slices that may be saved up.
 #define CREDIT_MAX 8.0f
-
-/// Longest distance of two ticks, s: sensor.h makes them at most 0.16 s apart. Largest sum of the squares of a tick's numbers: rates of
-/// 200 rad/s and velocities of 1600 m/s, the limits of sensor.h, make 4e6.
-#define TICK_MAX_S 0.4f
-#define SQUARES_MAX 1e7f
 
 /// Evidence at which the other pairing takes over.
 #define EVIDENCE_TURN (-1.0f)
@@ -85,16 +77,10 @@ static void clear(jcal_functional_t *self)
 /// A sensor has moved: everything is learnt anew.
 static void begin_anew(jcal_functional_t *self)
 {
-    const uint64_t last_us = self->last_us;
-    const uint32_t ticks = self->ticks;
-    const uint32_t epoch1 = self->epoch1;
-    const uint32_t epoch2 = self->epoch2;
+    jcal_tick_pair_t ticks = self->ticks;
+    jcal_ticks_forget(&ticks);
     clear(self);
-    self->last_us = last_us;
     self->ticks = ticks;
-    self->epoch1 = epoch1;
-    self->epoch2 = epoch2;
-    self->has_tick = true;
     self->verdict.status = (uint8_t)JCAL_MOVED;
 }
 
@@ -116,22 +102,6 @@ jcal_status_t jcal_functional_reset(jcal_functional_t *self)
     return (self == NULL) ? JCAL_ERR_ARG : jcal_functional_init(self, &self->cfg);
 }
 
-/// Sum of the squares of a matrix (3 x 3).
-static float squares(const float *m)
-{
-    return (m[0] * m[0]) + (m[1] * m[1]) + (m[2] * m[2]) + (m[3] * m[3]) + (m[4] * m[4]) + (m[5] * m[5]) +
-           (m[6] * m[6]) + (m[7] * m[7]) + (m[8] * m[8]);
-}
-
-/// True if a tick is one that a sensor can make: its numbers are finite, and no product of them overflows.
-static bool is_possible(const jcal_tick_t *tick)
-{
-    const float all = squares(tick->turn) + squares(tick->rate) + squares(tick->lever) +
-                      jcal_vec3_dot(tick->velocity, tick->velocity) + jcal_vec3_dot(tick->gyr, tick->gyr) +
-                      (tick->acc_level_m_s2 * tick->acc_level_m_s2);
-    return (all <= SQUARES_MAX) && (tick->dt_s > 0.0f) && (tick->dt_s <= TICK_MAX_S);
-}
-
 /// Features began anew: the headings of before are not those of now.
 static void cut(jcal_functional_t *self)
 {
@@ -148,42 +118,20 @@ static void cut(jcal_functional_t *self)
     jcal_functional_track_clear(self);
 }
 
-static void add_up(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
-{
-    const float period_s = tick1->dt_s;
-    const float rate2 = jcal_vec3_dot(tick1->gyr, tick1->gyr) + jcal_vec3_dot(tick2->gyr, tick2->gyr);
-    self->rate2 += (period_s / (period_s + RATE_SMOOTHING_S)) * (rate2 - self->rate2);
-    const float share = 1.0f / (self->rate2 + REST_RATE2);
-    const jcal_functional_weights_t weights = {
-        .motion_s = period_s * self->rate2 * share,
-        .spin = period_s * self->rate2 * share * share,
-        .rate2 = self->rate2,
-    };
-    self->motion_s += weights.motion_s;
-    jcal_functional_sums_add(&self->sums, tick1, tick2, &weights);
-    jcal_functional_track_add(self, tick1, tick2, weights.motion_s);
-}
-
 jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
 {
     if ((self == NULL) || (tick1 == NULL) || (tick2 == NULL)) {
         return JCAL_ERR_ARG;
     }
-    const bool in_order = !self->has_tick || (tick1->t_us > self->last_us);
-    if ((tick1->t_us != tick2->t_us) || !in_order || !is_possible(tick1) || !is_possible(tick2)) {
+    const jcal_ticks_t kind = jcal_ticks_take(&self->ticks, tick1, tick2);
+    if (kind == JCAL_TICKS_REJECTED) {
         return JCAL_REJECTED;
     }
-    const bool goes_on = !self->has_tick || ((tick1->epoch == self->epoch1) && (tick2->epoch == self->epoch2));
-    self->has_tick = true;
-    self->epoch1 = tick1->epoch;
-    self->epoch2 = tick2->epoch;
-    self->last_us = tick1->t_us;
-    self->ticks += 1u;
-    const float off1 = fabsf(tick1->acc_level_m_s2 - 9.81f);
-    const float off2 = fabsf(tick2->acc_level_m_s2 - 9.81f);
-    self->gravity_off = jcal_max(off1, off2);
-    if (goes_on) {
-        add_up(self, tick1, tick2);
+    if (kind == JCAL_TICKS_GO_ON) {
+        const jcal_tick_weights_t weights = jcal_ticks_weigh(&self->ticks, tick1, tick2);
+        self->motion_s += weights.motion_s;
+        jcal_functional_sums_add(&self->sums, tick1, tick2, &weights);
+        jcal_functional_track_add(self, tick1, tick2, weights.motion_s);
     } else {
         cut(self); /* work enough for one tick, which is left out */
     }

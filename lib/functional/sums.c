@@ -90,7 +90,7 @@ static void add_rates(jcal_functional_sums_t *self, const jcal_tick_t *tick1, co
 }
 
 void jcal_functional_sums_add(jcal_functional_sums_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2,
-                              const jcal_functional_weights_t *weights)
+                              const jcal_tick_weights_t *weights)
 {
     self->motion_s += weights->motion_s;
     self->rate2 += weights->spin * weights->rate2;

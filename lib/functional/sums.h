@@ -11,19 +11,13 @@
 #include "jointcal/private/functional/point.h"
 #include "jointcal/private/functional/sums.h"
 #include "jointcal/tick.h"
+#include "levers/ticks.h"
 
 #include <stdbool.h>
 
-/// Weights of one tick.
-typedef struct {
-    float motion_s;  ///< w: seconds, less where there is little motion.
-    float spin;      ///< w over the squared rate: a rate across the axis counts as an angle, s / (rad/s)^2.
-    float rate2;     ///< Both squared rates, smoothed, (rad/s)^2.
-} jcal_functional_weights_t;
-
 /// Adds a tick of both sensors, of the same time. Cost: 330 multiply-adds.
 void jcal_functional_sums_add(jcal_functional_sums_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2,
-                              const jcal_functional_weights_t *weights);
+                              const jcal_tick_weights_t *weights);
 
 /// True if the open block is long enough to be closed.
 bool jcal_functional_sums_full(const jcal_functional_sums_t *self);

@@ -88,7 +88,8 @@ static void watch(jcal_functional_t *self, const seen_t *seen, float rate2, floa
     const jcal_plane_t heading = self->track.heading;
     const float turn2 = apart2(heading, seen->axis1, seen->axis2);
     const float lever2 = apart2(heading, seen->velocity1, seen->velocity2);
-    const float squares[JCAL_FAMILIES] = {0.5f * turn2, 0.5f * rate2 / (self->rate2 + WATCH_REST_RATE2), lever2 / 3.0f};
+    const float squares[JCAL_FAMILIES] = {0.5f * turn2, 0.5f * rate2 / (self->ticks.rate2 + WATCH_REST_RATE2),
+                                          lever2 / 3.0f};
     const float share = motion_s / (motion_s + WATCH_S);
     for (unsigned f = 0u; f < JCAL_FAMILIES; ++f) {
         const float square = jcal_min(squares[f] / self->point.size[f], WATCH_CLIP);

@@ -81,7 +81,7 @@ static void write_row(const jcal_hinge_auto_t *engine, bool either, size_t sampl
         joint->point.size[0],
         joint->point.size[1],
         joint->point.size[2],
-        joint->gravity_off,
+        joint->ticks.gravity_off,
         joint->motion_s,
         joint->point.energy,
         (float)sample,
@@ -133,8 +133,8 @@ int32_t jcal_batch_functional(const jcal_batch_functional_options_t *options, co
         }
         out->flexion[k] = (options->either != 0) ? jcal_hinge_auto_flexion(&engine)
                                                  : jcal_functional_pair_flexion(&engine.functional);
-        if (engine.functional.joint.ticks != ticks) {
-            ticks = engine.functional.joint.ticks;
+        if (engine.functional.joint.ticks.count != ticks) {
+            ticks = engine.functional.joint.ticks.count;
             write_row(&engine, options->either != 0, k, out->rows + out->row_count * JCAL_BATCH_FUNCTIONAL_COLUMNS);
             out->row_count++;
         }

@@ -60,7 +60,7 @@ static void sum_up(void)
         const float *const g = golden_ticks[k];
         const jcal_tick_t tick1 = tick_of(g);
         const jcal_tick_t tick2 = tick_of(&g[33]);
-        const jcal_functional_weights_t weights = {g[66], g[67], g[68]};
+        const jcal_tick_weights_t weights = {g[66], g[67], g[68]};
         jcal_functional_sums_add(&joint.sums, &tick1, &tick2, &weights);
         const bool due = (closed < GOLDEN_CLOSES) && (golden_closes[closed][0] == (float)(k + 1));
         TEST_ASSERT_EQUAL_INT(due, jcal_functional_sums_full(&joint.sums));

@@ -17,7 +17,7 @@ void setUp(void)
     run_for(&run, 10.0);
     good = run.joint;
     TEST_ASSERT_EQUAL_INT(JCAL_READY, good.verdict.status);
-    good.gravity_off = 0.0f;
+    good.ticks.gravity_off = 0.0f;
     good.sums.motion_s = 8.0f;
     good.point.size[JCAL_FAMILY_TURN] = 0.005f;
     good.point.lack = 0.0f;
@@ -66,7 +66,7 @@ static void expect_limit(float *value, float inside, float outside, jcal_reason_
 static void each_limit_alone(void)
 {
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, judged(&good));
-    expect_limit(&good.gravity_off, 0.59f, 0.61f, JCAL_REASON_GRAVITY_OFF);
+    expect_limit(&good.ticks.gravity_off, 0.59f, 0.61f, JCAL_REASON_GRAVITY_OFF);
     expect_limit(&good.sums.motion_s, 3.01f, 2.99f, JCAL_REASON_NO_MOTION);
     expect_limit(&good.point.size[JCAL_FAMILY_TURN], 0.060f, 0.062f, JCAL_REASON_DOES_NOT_FIT);
     good.point.speed2 = 1.0f; /* 0.0256 (m/s)^2 may be left, times 8 s */
@@ -142,7 +142,7 @@ static void no_bound_without_an_axis(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_SIGN_OPEN, judged(&good));
     TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, bound_told(&good));
     setUp();
-    good.gravity_off = 0.7f;
+    good.ticks.gravity_off = 0.7f;
     TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, bound_told(&good));
     setUp();
     good.point.size[JCAL_FAMILY_TURN] = 0.07f;

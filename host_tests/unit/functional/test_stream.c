@@ -146,8 +146,8 @@ static void times_do_not_matter_but_for_their_order(void)
     other.begin_us = 0x123456789abcull;
     run_for(&run, 15.0);
     run_for(&other, 15.0);
-    TEST_ASSERT_TRUE(other.joint.last_us - run.joint.last_us == other.begin_us - run.begin_us);
-    other.joint.last_us = run.joint.last_us;
+    TEST_ASSERT_TRUE(other.joint.ticks.last_us - run.joint.ticks.last_us == other.begin_us - run.begin_us);
+    other.joint.ticks.last_us = run.joint.ticks.last_us;
     TEST_ASSERT_EQUAL_MEMORY(&run.joint, &other.joint, sizeof run.joint);
 }
 
@@ -182,7 +182,7 @@ static void ticks_that_are_refused_leave_no_trace(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_functional_add(&run.joint, &good1, &late));
     jcal_tick_t old1 = good1;
     jcal_tick_t old2 = good2;
-    old1.t_us = old2.t_us = run.joint.last_us;
+    old1.t_us = old2.t_us = run.joint.ticks.last_us;
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_functional_add(&run.joint, &old1, &old2));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_functional_add(NULL, &good1, &good2));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_functional_add(&run.joint, NULL, &good2));

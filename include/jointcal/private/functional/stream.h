@@ -8,6 +8,7 @@
 #include "jointcal/private/functional/point.h"
 #include "jointcal/private/functional/sums.h"
 #include "jointcal/private/functional/verdict.h"
+#include "jointcal/private/levers/ticks.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -38,18 +39,13 @@ typedef struct {
     jcal_functional_search_t search;
     jcal_functional_verdict_t verdict;
     jcal_functional_track_t track;
-    uint64_t last_us;   ///< Time of the last tick.
-    float rate2;        ///< Both squared rates, smoothed, (rad/s)^2.
-    float motion_s;     ///< Motion since the beginning, s.
-    float since_s;      ///< Time since the last judgement began, s.
-    float credit;       ///< Slices that are paid for.
-    float gravity_off;  ///< How far the specific forces' medians are from gravity, m/s^2; the larger of both sensors.
-    uint32_t ticks;
-    uint32_t epoch1, epoch2;
-    uint8_t slice;  ///< Next slice of the judgement.
+    jcal_tick_pair_t ticks;
+    float motion_s;  ///< Motion since the beginning, s.
+    float since_s;   ///< Time since the last judgement began, s.
+    float credit;    ///< Slices that are paid for.
+    uint8_t slice;   ///< Next slice of the judgement.
     int8_t kept_sign[2];
     bool merged;  ///< A block was merged: headings cannot be begun anew any more.
-    bool has_tick;
 } jcal_functional_t;
 
 #ifdef __cplusplus
