@@ -102,7 +102,8 @@ jcal_quat_t jcal_hinge_auto_orientation(const jcal_hinge_auto_t *self, unsigned 
     if (self == NULL) {
         return jcal_sensor_orientation(NULL);
     }
-    return jcal_sensor_orientation((which == 2u) ? &self->functional.sensor2 : &self->functional.sensor1);
+    return jcal_sensor_orientation((which == 2u) ? &self->functional.sensors.sensor2
+                                                 : &self->functional.sensors.sensor1);
 }
 
 const char *jcal_model_string(jcal_model_t model)

@@ -4,9 +4,8 @@
 #ifndef JCAL_PRIVATE_FUNCTIONAL_PAIR_H
 #define JCAL_PRIVATE_FUNCTIONAL_PAIR_H
 
-#include "jointcal/gate.h"
 #include "jointcal/private/functional/stream.h"
-#include "jointcal/sensor.h"
+#include "jointcal/private/sensor/pair.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -14,11 +13,8 @@ extern "C" {
 
 /// Caller-owned, plain, copyable at any time between calls; all members are private.
 typedef struct {
-    jcal_gate_config_t limits;
-    jcal_gate_t gate;
-    jcal_sensor_t sensor1, sensor2;
+    jcal_sensor_pair_t sensors;
     jcal_functional_t joint;
-    uint64_t last_us;  ///< Time of the last reading.
 } jcal_functional_pair_t;
 
 #ifdef __cplusplus
