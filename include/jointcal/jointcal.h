@@ -9,6 +9,8 @@
 /// | the axis of a hinge | hinge.h; hinge_window.h is the published algorithm | hinge_config.h |
 /// | a hinge on a rig or on a person, and its angle | hinge_auto.h | hinge_config.h |
 /// | a person's joint, with sensors that serve several | functional.h, sensor.h; functional_pair.h for one joint | functional_config.h |
+/// | a person's hip or shoulder: heading and centre | ball.h, sensor.h; ball_pair.h for one joint | ball_config.h |
+/// | a person's elbow: two axes, heading and centre | two_axes.h, sensor.h; two_axes_pair.h for one joint | two_axes_config.h |
 /// | two axes and the heading offset | two_dof.h; two_dof_window.h is the published algorithm | two_dof_config.h |
 /// | the joint's centre | center.h; center_window.h is the published algorithm | center_config.h, kinematics.h |
 /// | hip and knee together | chain.h | chain_config.h |
@@ -25,6 +27,8 @@
 #define JCAL_VERSION_PATCH 0
 #define JCAL_VERSION_STRING "0.1.0"
 
+#include "jointcal/ball.h"
+#include "jointcal/ball_pair.h"
 #include "jointcal/center.h"
 #include "jointcal/center_window.h"
 #include "jointcal/chain.h"
@@ -43,6 +47,8 @@
 #include "jointcal/sensor.h"
 #include "jointcal/status.h"
 #include "jointcal/tick.h"
+#include "jointcal/two_axes.h"
+#include "jointcal/two_axes_pair.h"
 #include "jointcal/two_dof.h"
 #include "jointcal/two_dof_window.h"
 #include "jointcal/types.h"

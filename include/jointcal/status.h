@@ -60,7 +60,10 @@ typedef enum {
     /// More of the same motion will not help: units, range, mounting or pairing are wrong.
     JCAL_HINT_CHECK_SENSORS = 5,
     JCAL_HINT_MORE_DIRECTIONS = 6,  ///< Turn both segments about other axes too: so far a direction is left open.
-    JCAL_HINT_MOVE_FASTER = 7       ///< Move faster, so that the joint itself is accelerated.
+    JCAL_HINT_MOVE_FASTER = 7,      ///< Move faster, so that the joint itself is accelerated.
+    JCAL_HINT_BEND_ONLY = 8,        ///< Of a joint with two axes: bend and stretch only, for ten seconds.
+    JCAL_HINT_TURN_ONLY =
+        9  ///< Of a joint with two axes: turn the distal segment about its own line only, for ten seconds.
 } jcal_hint_t;
 
 /// Why the status is not `ready`.

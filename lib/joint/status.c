@@ -63,7 +63,8 @@ const char *jcal_weak_string(jcal_weak_t weak)
 const char *jcal_hint_string(jcal_hint_t hint)
 {
     static const char *const words[] = {NULL,        "move_joint",    "move_segment1",   "move_segment2",
-                                        "tilt_axis", "check_sensors", "more_directions", "move_faster"};
+                                        "tilt_axis", "check_sensors", "more_directions", "move_faster",
+                                        "bend_only", "turn_only"};
     return word(words, COUNT(words), (int)hint, NULL);
 }
 

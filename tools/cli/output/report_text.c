@@ -133,6 +133,10 @@ const char *report_help(const report_t *report)
         return "turn both segments about other axes too; the axis of a hinge always stays open, see --calibration";
     case JCAL_HINT_MOVE_FASTER:
         return "move faster and further, so that the joint itself is accelerated, as in walking";
+    case JCAL_HINT_BEND_ONLY:
+        return "bend and stretch the joint only, for ten seconds, without turning the segment beyond it";
+    case JCAL_HINT_TURN_ONLY:
+        return "hold the joint bent and turn the segment beyond it only, as with a door handle, for ten seconds";
     case JCAL_HINT_NONE:
     default:
         return NULL;

@@ -33,7 +33,7 @@ SIZE_FLOOR = 5e-5  # (m/s)^2
 MEMORY = 1.0  # s of motion that take one independent reading
 DRIFT = 2.0 * DEG  # of a heading, from block to block
 PULL = 1.0 / DRIFT**2
-FIRST_ROUNDS, TRIAL_ROUNDS, ROUNDS = 8, 4, 2
+TRIAL_ROUNDS, ROUNDS = 4, 2
 AHEAD = 0.5
 
 UNKNOWN_M, UNKNOWN = 10.0, np.pi / 2.0
@@ -399,8 +399,10 @@ class Ball:
         self.windows.parts = [Part(), Part()]
         if not self.has_estimate and self.sums.blocks[1].motion_s > 0.0:
             self.sums, self.past, self.point, self.motion_s = Sums(), Past(), Point(), 0.0
-        elif self.sums.blocks[0].motion_s > 0.0:
+        else:
             self.close()
+            self.close()  # both blocks: nothing ties their headings to what comes
+            self.past.known = 0.0
 
     def round(self, point: Point) -> None:
         put_levers(self.sums, point)
@@ -419,7 +421,7 @@ class Ball:
                 self.round(self.point)
         if not self.has_estimate or not self.merged:
             numbers = [self.turn] if self.has_estimate else range(HEADINGS)
-            best = min((self.trial(n, TRIAL_ROUNDS if self.has_estimate else FIRST_ROUNDS) for n in numbers), key=lambda p: p.size)
+            best = min((self.trial(n, TRIAL_ROUNDS) for n in numbers), key=lambda p: p.size)
             self.turn = (self.turn + 1) % HEADINGS
             ahead = ROWS[2] / MEMORY * self.sums.motion_s * np.log(self.point.size / best.size)
             if not self.has_estimate or ahead > AHEAD:
