@@ -283,8 +283,8 @@ static void orientations_are_of_the_sensor_that_is_asked_for(void)
     feed(0u, 500u);
     for (unsigned which = 1u; which <= 2u; ++which) {
         const jcal_quat_t q = jcal_hinge_auto_orientation(&knee, which);
-        const jcal_quat_t wanted =
-            jcal_sensor_orientation((which == 1u) ? &knee.functional.sensors.sensor1 : &knee.functional.sensors.sensor2);
+        const jcal_quat_t wanted = jcal_sensor_orientation((which == 1u) ? &knee.functional.sensors.sensor1
+                                                                         : &knee.functional.sensors.sensor2);
         TEST_ASSERT_EQUAL_MEMORY(&wanted, &q, sizeof q);
     }
     TEST_ASSERT_EQUAL_FLOAT(1.0f, jcal_hinge_auto_orientation(NULL, 1u).w);
