@@ -13,8 +13,8 @@ DATA = pathlib.Path(os.environ.get("JOINTCAL_DATA", ROOT / "data"))
 RIG = sorted(DATA.glob("rig_3D_*.csv"))
 KEYS = ["event", "t_s", "status", "engine", "weak", "hint", "reason", "joint_to_sensor1_m", "joint_to_sensor2_m",
         "uncertainty_m", "weakest_direction1", "weakest_direction2", "uncertainty_weakest_m", "acc_bias1_m_s2",
-        "acc_bias2_m_s2", "heading_offset_deg", "misfit", "advice", "samples", "rejected", "rejected_by"]
-WINDOW_KEYS = KEYS[:17] + ["paper_accepted"] + KEYS[17:]
+        "acc_bias2_m_s2", "heading_offset_deg", "model", "misfit", "advice", "samples", "rejected", "rejected_by"]
+WINDOW_KEYS = KEYS[:18] + ["paper_accepted"] + KEYS[18:]
 ALL = recordings.COLUMNS + recordings.ORIENTATION_COLUMNS
 CELLS = recordings.texts(recordings.center_rows(25))
 FILE = recordings.csv(CELLS, ALL)

@@ -45,7 +45,8 @@ typedef enum {
 typedef enum {
     JCAL_FOR_NOTHING = 0,  ///< Not ready.
     JCAL_FOR_AXES = 1,     ///< Both axes are within max_bound_rad, and so is whatever is made of them.
-    JCAL_FOR_FLEXION = 2   ///< The angle of the joint is within max_flexion_rad; the axes are further off.
+    JCAL_FOR_FLEXION = 2,  ///< The angle of the joint is within max_flexion_rad; the axes are further off.
+    JCAL_FOR_ANGLES = 3    ///< The angles of a person's joint (two_dof_auto.h): axes and heading are within its limits.
 } jcal_ready_for_t;
 
 /// Settings: those of the rigid model, and the limit of the angle's error.
@@ -110,7 +111,7 @@ jcal_quat_t jcal_hinge_auto_orientation(const jcal_hinge_auto_t *self, unsigned 
 
 /// `rigid` or `functional`; never null. Threads: no state.
 const char *jcal_model_string(jcal_model_t model);
-/// `axes`, `flexion`; null for JCAL_FOR_NOTHING. Threads: no state.
+/// `axes`, `flexion`, `angles`; null for JCAL_FOR_NOTHING. Threads: no state.
 const char *jcal_ready_for_string(jcal_ready_for_t ready_for);
 
 #ifdef __cplusplus

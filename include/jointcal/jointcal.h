@@ -11,6 +11,7 @@
 /// | a person's joint, with sensors that serve several | functional.h, sensor.h; functional_pair.h for one joint | functional_config.h |
 /// | a person's hip or shoulder: heading and centre | ball.h, sensor.h; ball_pair.h for one joint | ball_config.h |
 /// | a person's elbow: two axes, heading and centre | two_axes.h, sensor.h; two_axes_pair.h for one joint | two_axes_config.h |
+/// | two axes on a rig or on a person | two_dof_auto.h | two_dof_config.h, two_axes_config.h |
 /// | two axes and the heading offset | two_dof.h; two_dof_window.h is the published algorithm | two_dof_config.h |
 /// | the joint's centre | center.h; center_window.h is the published algorithm | center_config.h, kinematics.h |
 /// | hip and knee together | chain.h | chain_config.h |
@@ -50,6 +51,7 @@
 #include "jointcal/two_axes.h"
 #include "jointcal/two_axes_pair.h"
 #include "jointcal/two_dof.h"
+#include "jointcal/two_dof_auto.h"
 #include "jointcal/two_dof_window.h"
 #include "jointcal/types.h"
 #include "jointcal/vec3.h"

@@ -118,6 +118,8 @@ const char *jcal_ready_for_string(jcal_ready_for_t ready_for)
         return "axes";
     case JCAL_FOR_FLEXION:
         return "flexion";
+    case JCAL_FOR_ANGLES:
+        return "angles";
     case JCAL_FOR_NOTHING:
     default:
         return NULL;

@@ -16,8 +16,8 @@ typedef struct {
 } command_t;
 
 static const command_t COMMANDS[] = {
-    {"angles", angles_command}, {"center", center_command}, {"chain", chain_command},    {"check", check_command},
-    {"hinge", hinge_command},   {"stream", stream_command}, {"two-dof", two_dof_command}};
+    {"angles", angles_command}, {"ball", ball_command},   {"center", center_command}, {"chain", chain_command},
+    {"check", check_command},   {"hinge", hinge_command}, {"stream", stream_command}, {"two-dof", two_dof_command}};
 
 #define COMMAND_COUNT (sizeof COMMANDS / sizeof COMMANDS[0])
 
@@ -54,14 +54,15 @@ static error_t parse(int key, char *argument, struct argp_state *state)
         choice->command = find_command(argument);
         choice->index = state->next - 1;
         if (choice->command == NULL) {
-            argp_error(state, "no subcommand '%s'; there is: angles, center, chain, check, hinge, stream, two-dof",
+            argp_error(state,
+                       "no subcommand '%s'; there is: angles, ball, center, chain, check, hinge, stream, two-dof",
                        argument);
         }
         state->next = state->argc;
         return 0;
     }
     if (key == ARGP_KEY_NO_ARGS) {
-        argp_error(state, "which subcommand? There is: angles, center, chain, check, hinge, stream, two-dof");
+        argp_error(state, "which subcommand? There is: angles, ball, center, chain, check, hinge, stream, two-dof");
     }
     return ARGP_ERR_UNKNOWN;
 }
@@ -72,11 +73,12 @@ static const struct argp PARSER = {
     .options = OPTIONS,
     .parser = parse,
     .args_doc =
-        "angles RECORDING.csv --joint KIND [OPTION...]\ncenter RECORDING.csv [OPTION...]\nchain RECORDING.csv [OPTION...]\ncheck RECORDING.csv [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]\n"
+        "angles RECORDING.csv --joint KIND [OPTION...]\nball RECORDING.csv [OPTION...]\ncenter RECORDING.csv [OPTION...]\nchain RECORDING.csv [OPTION...]\ncheck RECORDING.csv [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]\n"
         "two-dof RECORDING.csv [OPTION...]",
     .doc = "Finds out how the IMUs of a recording sit on the two sides of a joint.\v"
            "Subcommands:\n"
            "  angles   the angles of a joint, from these axes\n"
+           "  ball     how both sensors of a person's hip or shoulder stand to each other, and the joint's centre\n"
            "  center   where both sensors sit relative to the centre of a joint\n"
            "  chain    the same for hip and knee together, three sensors\n"
            "  check    what the sensors do, and what is wrong with a recording as a whole\n"

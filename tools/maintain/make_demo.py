@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write the bundled demo recordings tools/demo/{hinge,knee,two_dof,chain}_demo.csv and their truths, .json.
+"""Write the bundled demo recordings tools/demo/{hinge,knee,elbow,two_dof,chain}_demo.csv and their truths, .json.
 
     python3 tools/maintain/make_demo.py            write all
     python3 tools/maintain/make_demo.py --check    exit 1 if the files in the repository differ
@@ -7,6 +7,7 @@
 Hinge: rest, then motion with a stiff joint (nothing to learn about the axis),
 then informative motion: 30 s at 50 Hz with realistic disturbances.
 Knee: a person stands, walks, squats; sensors on skin: 36 s at 50 Hz, with the bones' flexion.
+Elbow: a person walks, bends, turns the forearm; sensors on skin: 32 s at 50 Hz.
 Two axes: rest, motion about one axis only, then about both: 40 s at 50 Hz.
 Gyroscope bias lets the heading of orientations computed from it drift.
 Hip and knee: three sensors, motion of type 2 of SAL15: 30 s at 50 Hz, with a
@@ -32,6 +33,7 @@ DEMO = TOOLS / "demo"
 HINGE = HingeSpec(motions=(("rest", 4.0), ("stiff", 4.0), ("7", 10.0), ("6", 9.0)),  # and 3 s of transitions
                   rate_hz=50.0, seed=2020, acc_bias=0.1, gyr_bias_deg_s=0.3, soft_tissue_deg=0.5)
 KNEE = PersonSpec((("stand", 4.0), ("walk", 16.0), ("squat", 16.0)), rate_hz=50.0, seed=2026)
+ELBOW = PersonSpec((("walk", 6.0), ("bend", 13.0), ("turn", 13.0)), "elbow", 50.0, seed=2026)
 TWO_DOF = TwoDofSpec(motions=(("rest", 4.0), ("hinge", 6.0), ("free", 28.0)),
                      rate_hz=50.0, seed=2022, carrying_deg=8.0, acc_bias=0.1, gyr_bias_deg_s=0.1, soft_tissue_deg=0.3)
 CHAIN = ChainSpec(type=2, seconds=30.0, rate_hz=50.0, seed=2015, noise_scale=0.3, acc_bias=0.1, gyr_bias_deg_s=0.1)
@@ -61,9 +63,13 @@ def write_demo(folder: Path) -> None:
         truth = {**rec.truth(), "source": "simulated (tools/maintain/make_demo.py)"}
         truth.pop("heading_offset_deg", None)
         write_truth(folder / f"{name}.json", truth)
-    knee = simulate_person(KNEE)
-    write_csv(folder / "knee_demo.csv", knee, digits=DIGITS, extra=without_orientations(knee.extra_columns()))
-    write_truth(folder / "knee_demo.json", {**knee.truth(), "source": "simulated (tools/maintain/make_demo.py)"})
+    for name, spec in (("knee_demo", KNEE), ("elbow_demo", ELBOW)):
+        person = simulate_person(spec)
+        write_csv(folder / f"{name}.csv", person, digits=DIGITS, extra=without_orientations(person.extra_columns()))
+        truth = {**person.truth(), "source": "simulated (tools/maintain/make_demo.py)"}
+        if spec.joint == "elbow":  # what 'jointcal two-dof' calls axis 2
+            truth["axis2"] = truth["turn_axis2"]
+        write_truth(folder / f"{name}.json", truth)
     chain = simulate_chain(CHAIN)
     write_csv(folder / "chain_demo.csv", chain.first_two(), digits=DIGITS, extra=chain.third_columns())
     write_truth(folder / "chain_demo.json", {**chain.truth(), "source": "simulated (tools/maintain/make_demo.py)"})

@@ -320,6 +320,7 @@ static void null_and_wrong_settings_are_errors(void)
     TEST_ASSERT_EQUAL_STRING("functional", jcal_model_string(JCAL_MODEL_FUNCTIONAL));
     TEST_ASSERT_EQUAL_STRING("axes", jcal_ready_for_string(JCAL_FOR_AXES));
     TEST_ASSERT_EQUAL_STRING("flexion", jcal_ready_for_string(JCAL_FOR_FLEXION));
+    TEST_ASSERT_EQUAL_STRING("angles", jcal_ready_for_string(JCAL_FOR_ANGLES));
     TEST_ASSERT_NULL(jcal_ready_for_string(JCAL_FOR_NOTHING));
 }
 

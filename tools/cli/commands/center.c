@@ -14,6 +14,9 @@
 /* Samples that the window engine keeps a second, about. */
 #define ROWS_PER_S 50.0f
 
+/* Misfit of the rigid engine from which on the segments are a person's: recordings of rigs leave at most 0.05, of people 0.2 and more. */
+#define PERSON_MISFIT 0.1f
+
 /* ---- Options ---- */
 
 enum { KEY_METHOD = OPTION_OWN, KEY_DERIVATIVE, KEY_SMOOTHING, KEY_MIN_RATE, KEY_ACC_BIAS, KEY_CALIBRATION };
@@ -122,6 +125,9 @@ static const command_line_t LINE = {
         "Finds where both sensors of a recording sit relative to the centre of the joint between them, from arbitrary motion.\v"
         "The recording is as for 'jointcal hinge'. Results are the vectors from the joint's centre to each sensor, in that sensor's "
         "frame. Orientations for --method ls are taken or computed as for 'jointcal two-dof'.\n"
+        "\n"
+        "On rigid segments places are good to millimetres (model rigid). On a person skin moves with the sensors: places are then good to "
+        "some centimetres (model functional), and are ready with a limit such as --max-bound 0.06.\n"
         "\n" COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] =
@@ -157,7 +163,10 @@ typedef struct {
         jcal_center_t stream;
         jcal_center_window_t window;
     } engine;
-    bool is_hinge; /* its axes are known */
+    bool is_hinge;           /* its axes are known */
+    bool has_people;         /* the model of a person's joint runs beside the stream engine */
+    jcal_ball_pair_t people; /* it */
+    jcal_model_t model;      /* that the result is of */
     jcal_center_result_t result;
 } center_run_t;
 
@@ -169,7 +178,11 @@ static bool start(void *self, const void *own)
     run->base.oriented = config->center.method == JCAL_CENTER_LS;
     run->is_hinge = options->calibration != NULL;
     if (run->base.engine == JCAL_ENGINE_STREAM) {
-        return jcal_center_init(&run->engine.stream, &config->center) == JCAL_OK;
+        jcal_ball_config_t people = jcal_ball_config_default();
+        people.max_lever_m = config->center.max_bound_m;
+        run->has_people = !run->is_hinge && !run->base.oriented;
+        return jcal_center_init(&run->engine.stream, &config->center) == JCAL_OK &&
+               jcal_ball_pair_init(&run->people, &people, NULL) == JCAL_OK;
     }
     const size_t bytes = jcal_center_window_storage_bytes(config);
     run->base.storage = malloc(bytes);
@@ -184,6 +197,9 @@ static bool push(void *self, const recording_row_t *row, uint64_t t_us)
     const jcal_attitudes_t attitudes = {row->q1, row->q2};
     jcal_center_t *stream = &run->engine.stream;
     jcal_center_window_t *window = &run->engine.window;
+    if (run->has_people && jcal_ball_pair_update(&run->people, &pair) < JCAL_OK) {
+        return false;
+    }
     if (run->base.engine == JCAL_ENGINE_STREAM) {
         const jcal_status_t status =
             run->base.oriented ? jcal_center_push_oriented(stream, &pair, &attitudes) : jcal_center_push(stream, &pair);
@@ -201,13 +217,51 @@ static void reset(void *self)
                                                     : jcal_center_window_reset(&run->engine.window));
 }
 
+/* A person's joint in the form of a rigid one's; the counters stay. */
+static void say_people(center_run_t *run, const jcal_ball_result_t *ball)
+{
+    jcal_center_result_t *result = &run->result;
+    const bool ready = ball->for_center1 && ball->for_center2;
+    const bool open =
+        ball->head.status == JCAL_READY && !ready; /* the joint is one, a place is not known well enough */
+    const jcal_weak_t worse = (ball->uncertainty1_m > ball->uncertainty2_m) ? JCAL_WEAK_CENTER1 : JCAL_WEAK_CENTER2;
+    run->model = JCAL_MODEL_FUNCTIONAL;
+    result->head.status = open ? JCAL_COLLECTING : ball->head.status;
+    result->head.reason = open ? JCAL_REASON_UNCERTAIN : ball->head.reason;
+    result->head.weak = ready ? JCAL_WEAK_NONE : worse;
+    result->head.hint = open ? JCAL_HINT_MORE_DIRECTIONS : ball->head.hint;
+    result->has_center = true;
+    result->joint_to_sensor1_m = ball->joint_to_sensor1_m;
+    result->joint_to_sensor2_m = ball->joint_to_sensor2_m;
+    result->uncertainty1_m = ball->uncertainty1_m;
+    result->uncertainty2_m = ball->uncertainty2_m;
+    result->weakest_direction1 = jcal_vec3(0.0f, 0.0f, 0.0f);
+    result->weakest_direction2 = jcal_vec3(0.0f, 0.0f, 0.0f);
+    result->uncertainty_weakest1_m = JCAL_BOUND_UNKNOWN_M;
+    result->uncertainty_weakest2_m = JCAL_BOUND_UNKNOWN_M;
+    result->misfit = 0.0f;
+}
+
 static const jcal_head_t *get(void *self)
 {
     center_run_t *run = self;
+    jcal_center_result_t *rigid = &run->result;
     /* The only error is a null pointer. */
-    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_center_get(&run->engine.stream, &run->result)
-                                                    : jcal_center_window_get(&run->engine.window, &run->result));
-    return &run->result.head;
+    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_center_get(&run->engine.stream, rigid)
+                                                    : jcal_center_window_get(&run->engine.window, rigid));
+    run->model = JCAL_MODEL_RIGID;
+    if (run->has_people) {
+        jcal_ball_result_t ball;
+        (void)jcal_ball_pair_get(&run->people, &ball);
+        const bool settled = rigid->head.status == JCAL_READY || rigid->head.status == JCAL_MOVED;
+        const bool known = ball.uncertainty_heading_rad < BOUND_UNKNOWN_RAD;
+        const float theirs = fmaxf(ball.uncertainty1_m, ball.uncertainty2_m);
+        const bool sharper = theirs < fmaxf(rigid->uncertainty1_m, rigid->uncertainty2_m);
+        if (known && (rigid->misfit > PERSON_MISFIT || (!settled && sharper))) {
+            say_people(run, &ball);
+        }
+    }
+    return &rigid->head;
 }
 
 /* ---- What is written ---- */
@@ -255,10 +309,12 @@ static void write_json(const void *self, json_t *json)
     report_json_vector(json, "weakest_direction1", is_known(result->weakest_direction1), result->weakest_direction1);
     report_json_vector(json, "weakest_direction2", is_known(result->weakest_direction2), result->weakest_direction2);
     write_bounds(json, "uncertainty_weakest_m", result->uncertainty_weakest1_m, result->uncertainty_weakest2_m);
-    report_json_vector(json, "acc_bias1_m_s2", known && !run->base.oriented, result->acc_bias1_m_s2);
-    report_json_vector(json, "acc_bias2_m_s2", known && !run->base.oriented, result->acc_bias2_m_s2);
+    const bool biased = known && !run->base.oriented && run->model == JCAL_MODEL_RIGID;
+    report_json_vector(json, "acc_bias1_m_s2", biased, result->acc_bias1_m_s2);
+    report_json_vector(json, "acc_bias2_m_s2", biased, result->acc_bias2_m_s2);
     json_number(json, "heading_offset_deg",
                 (known && run->base.oriented) ? DEG_PER_RAD * result->heading_offset_rad : NAN);
+    json_word(json, "model", known ? jcal_model_string(run->model) : NULL);
     json_number(json, "misfit", (known && result->misfit > 0.0f) ? result->misfit : NAN);
     if (result->head.engine == JCAL_ENGINE_WINDOW) {
         json_word(json, "paper_accepted", NULL); /* the paper has no test of that kind */
@@ -292,6 +348,11 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
     print_place(file, "joint to sensor 2", result->has_center, result->joint_to_sensor2_m, result->uncertainty2_m);
     print_direction(file, "weakest along", result->weakest_direction1, result->uncertainty_weakest1_m);
     print_direction(file, "    and, sensor 2,", result->weakest_direction2, result->uncertainty_weakest2_m);
+    if (run->model == JCAL_MODEL_FUNCTIONAL) {
+        report_print_words(
+            file, "model",
+            "functional: as on a person; a tenth of each place and more is allowed for skin that goes along");
+    }
     if (run->is_hinge) {
         report_print_words(file, "along the axis",
                            "unknown: any point of a hinge's axis will do, this is the one next to both sensors");

@@ -5,6 +5,7 @@
 #define JCAL_CLI_COMMANDS_COMMANDS_H
 
 int angles_command(int argc, char **argv);
+int ball_command(int argc, char **argv);
 int center_command(int argc, char **argv);
 int chain_command(int argc, char **argv);
 int check_command(int argc, char **argv);

@@ -15,12 +15,16 @@
 /* Samples that the window engine keeps a second. */
 #define ROWS_PER_S 20.0f
 
+/* The least limit of a person's axes and heading, rad: no bound of theirs comes near it. */
+#define PEOPLE_LEAST_RAD 0.01f
+
 /* ---- Options ---- */
 
 enum { KEY_CONSTRAINT = OPTION_OWN };
 
 typedef struct {
     jcal_two_dof_window_config_t config; /* of the window engine, whose `two_dof` part serves both */
+    jcal_two_axes_config_t people;
     bool has_constraint;
 } two_dof_options_t;
 
@@ -83,14 +87,20 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
         config->memory_s = common->window_s;
     }
     config->axis1_toward = common->axis1_toward;
+    options->people.axis1_toward = common->axis1_toward;
+    if (common->max_bound > 0.0f) { /* what is asked for is asked of both models */
+        options->people.max_bound_rad = fmaxf(common->max_bound, PEOPLE_LEAST_RAD);
+        options->people.ball.max_heading_rad = fmaxf(common->max_bound, PEOPLE_LEAST_RAD);
+    }
     config->max_bound_rad = (common->max_bound > 0.0f) ? common->max_bound : config->max_bound_rad;
     common->max_bound = config->max_bound_rad;
     const common_limit_t limits[] = {
         {"memory_s", "window", config->memory_s, "a number of seconds from 2 to 600"},
         {"max_bound_rad", "max-bound", common->max_bound / RAD_PER_DEG, "a number of degrees from 0.06 to 28"},
         {"n_max", "n-max", (float)options->config.n_max, "a number from 20 to 10000"}};
+    const jcal_two_dof_auto_config_t both = {*config, options->people};
     common_check(state,
-                 (common->engine == JCAL_ENGINE_STREAM) ? jcal_two_dof_config_check(config)
+                 (common->engine == JCAL_ENGINE_STREAM) ? jcal_two_dof_auto_config_check(&both)
                                                         : jcal_two_dof_window_config_check(&options->config),
                  limits, sizeof limits / sizeof limits[0]);
 }
@@ -105,6 +115,11 @@ static const command_line_t LINE = {
         "each with a heading of its own); else they are computed from the rates and specific forces.\n"
         "\n"
         "The heading offset turns vectors from the earth frame of sensor 2 to that of sensor 1, about z.\n"
+        "\n"
+        "On rigid segments any motion about both axes will do (model rigid). On a person skin moves with the sensors: bend only for ten "
+        "seconds, then turn the forearm only for ten seconds (model functional). Each axis is found from its own motion, and ready means "
+        "ready for the angles: axes and heading to within 15 degrees. The heading is then that between the orientations that the library "
+        "makes itself.\n"
         "\n" COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] =
@@ -119,7 +134,8 @@ static const command_line_t LINE = {
          [COMMON_EVERY] = {.help = COMMON_EVERY_HELP},
          [COMMON_MAX_BOUND] =
              {.help =
-                  "Ready when both axes and the heading are known to within DEG degrees with 95 % confidence (default 3)"},
+                  "Ready when both axes and the heading are known to within DEG degrees with 95 % confidence (default 3; of people "
+                  "15, ready for angles)"},
          [COMMON_SIGN_HINT] =
              {.refusal = "--sign-hint is for a hinge: each axis of a joint with two axes has a sign of its own"},
          [COMMON_AXIS1_TOWARD] = {.help = COMMON_TOWARD_HELP},
@@ -138,19 +154,21 @@ static const command_line_t LINE = {
 typedef struct {
     calibrate_state_t base;
     union {
-        jcal_two_dof_t stream;
+        jcal_two_dof_auto_t stream;
         jcal_two_dof_window_t window;
     } engine;
-    jcal_two_dof_result_t result;
+    jcal_two_dof_auto_result_t all;
 } two_dof_run_t;
 
 static bool start(void *self, const void *options)
 {
     two_dof_run_t *run = self;
-    const jcal_two_dof_window_config_t *config = &((const two_dof_options_t *)options)->config;
+    const two_dof_options_t *given = options;
+    const jcal_two_dof_window_config_t *config = &given->config;
     run->base.oriented = true;
     if (run->base.engine == JCAL_ENGINE_STREAM) {
-        return jcal_two_dof_init(&run->engine.stream, &config->two_dof) == JCAL_OK;
+        const jcal_two_dof_auto_config_t both = {config->two_dof, given->people};
+        return jcal_two_dof_auto_init(&run->engine.stream, &both) == JCAL_OK;
     }
     const size_t bytes = jcal_two_dof_window_storage_bytes(config);
     run->base.storage = malloc(bytes);
@@ -162,25 +180,31 @@ static bool push(void *self, const recording_row_t *row, uint64_t t_us)
 {
     two_dof_run_t *run = self;
     const jcal_orientation_pair_t pair = {t_us, row->q1, row->q2};
+    const jcal_pair_t readings = {t_us, row->imu1, row->imu2};
     return ((run->base.engine == JCAL_ENGINE_STREAM)
-                ? jcal_two_dof_update(&run->engine.stream, &pair)
+                ? jcal_two_dof_auto_update(&run->engine.stream, &readings, &pair)
                 : jcal_two_dof_window_update(&run->engine.window, &pair)) >= JCAL_OK;
 }
 
 static void reset(void *self)
 {
     two_dof_run_t *run = self;
-    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_two_dof_reset(&run->engine.stream)
+    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_two_dof_auto_restart(&run->engine.stream)
                                                     : jcal_two_dof_window_reset(&run->engine.window));
 }
 
 static const jcal_head_t *get(void *self)
 {
     two_dof_run_t *run = self;
+    jcal_two_dof_result_t *result = &run->all.two_dof;
     /* The only error is a null pointer. */
-    (void)((run->base.engine == JCAL_ENGINE_STREAM) ? jcal_two_dof_get(&run->engine.stream, &run->result)
-                                                    : jcal_two_dof_window_get(&run->engine.window, &run->result));
-    return &run->result.head;
+    if (run->base.engine == JCAL_ENGINE_STREAM) {
+        (void)jcal_two_dof_auto_get(&run->engine.stream, &run->all);
+    } else {
+        (void)jcal_two_dof_window_get(&run->engine.window, result);
+        run->all.ready_for = (result->head.status == JCAL_READY) ? JCAL_FOR_AXES : JCAL_FOR_NOTHING;
+    }
+    return &result->head;
 }
 
 /* ---- What is written ---- */
@@ -199,7 +223,7 @@ const report_words_t TWO_DOF_WORDS = {
 
 static report_axes_t axes(const void *self)
 {
-    const jcal_two_dof_result_t *result = &((const two_dof_run_t *)self)->result;
+    const jcal_two_dof_result_t *result = &((const two_dof_run_t *)self)->all.two_dof;
     return (report_axes_t){result->has_axes, result->axis1, result->axis2, result->uncertainty1_rad,
                            result->uncertainty2_rad};
 }
@@ -211,49 +235,96 @@ static float heading_deg(float rad)
     return (deg <= -180.0f || deg > 180.0f) ? 180.0f : deg;
 }
 
-static bool heading_bounded(const jcal_two_dof_result_t *result)
+/* The functional model has a heading before it has axes. */
+static bool has_heading(const jcal_two_dof_auto_result_t *all)
 {
-    return result->has_axes && result->uncertainty_heading_rad < BOUND_UNKNOWN_RAD;
+    return all->two_dof.has_axes || all->model == JCAL_MODEL_FUNCTIONAL;
+}
+
+static bool heading_bounded(const jcal_two_dof_auto_result_t *all)
+{
+    return has_heading(all) && all->two_dof.uncertainty_heading_rad < BOUND_UNKNOWN_RAD;
+}
+
+static bool has_carrying(const jcal_two_dof_auto_result_t *all)
+{
+    const jcal_two_dof_result_t *result = &all->two_dof;
+    const bool both = result->uncertainty1_rad < BOUND_UNKNOWN_RAD && result->uncertainty2_rad < BOUND_UNKNOWN_RAD;
+    return result->has_axes && (all->model == JCAL_MODEL_RIGID || both);
 }
 
 static void write_json(const void *self, json_t *json)
 {
-    const jcal_two_dof_result_t *result = &((const two_dof_run_t *)self)->result;
+    const two_dof_run_t *run = self;
+    const jcal_two_dof_auto_result_t *all = &run->all;
+    const jcal_two_dof_result_t *result = &all->two_dof;
     const report_axes_t found = axes(self);
-    const bool known = result->has_axes;
     const float bound_deg = DEG_PER_RAD * result->uncertainty_heading_rad;
+    const bool has_levers = all->ball.uncertainty_heading_rad < BOUND_UNKNOWN_RAD;
+    const float bounds_m[2] = {(all->ball.uncertainty1_m < JCAL_BOUND_UNKNOWN_M) ? all->ball.uncertainty1_m : NAN,
+                               (all->ball.uncertainty2_m < JCAL_BOUND_UNKNOWN_M) ? all->ball.uncertainty2_m : NAN};
     report_json_axes(json, &found);
-    json_number(json, "heading_offset_deg", known ? heading_deg(result->heading_offset_rad) : NAN);
-    json_number(json, "uncertainty_heading_deg", heading_bounded(result) ? bound_deg : NAN);
-    json_number(json, "carrying_angle_deg", known ? DEG_PER_RAD * result->carrying_angle_rad : NAN);
+    json_number(json, "heading_offset_deg", has_heading(all) ? heading_deg(result->heading_offset_rad) : NAN);
+    json_number(json, "uncertainty_heading_deg", heading_bounded(all) ? bound_deg : NAN);
+    json_number(json, "carrying_angle_deg", has_carrying(all) ? DEG_PER_RAD * result->carrying_angle_rad : NAN);
+    json_word(json, "model", has_heading(all) ? jcal_model_string(all->model) : NULL);
+    json_word(json, "ready_for", jcal_ready_for_string(all->ready_for));
+    report_json_vector(json, "joint_to_sensor1_m", has_levers, all->ball.joint_to_sensor1_m);
+    report_json_vector(json, "joint_to_sensor2_m", has_levers, all->ball.joint_to_sensor2_m);
+    json_numbers(json, "uncertainty_m", has_levers, bounds_m, 2);
     if (result->head.engine == JCAL_ENGINE_WINDOW) {
         json_word(json, "paper_accepted", NULL); /* Laidig et al. have no such test */
     }
 }
 
-static void print_heading(FILE *file, const jcal_two_dof_result_t *result)
+static void print_heading(FILE *file, const jcal_two_dof_auto_result_t *all)
 {
+    const jcal_two_dof_result_t *result = &all->two_dof;
     (void)fprintf(file, "  %-18s %8.1f deg   ", "heading offset", (double)heading_deg(result->heading_offset_rad));
-    if (heading_bounded(result)) {
+    if (heading_bounded(all)) {
         (void)fprintf(file, "to within %.1f deg\n", (double)(DEG_PER_RAD * result->uncertainty_heading_rad));
     } else {
         (void)fputs("uncertainty unknown\n", file);
     }
-    (void)fprintf(file, "  %-18s %8.1f deg\n", "carrying angle", (double)(DEG_PER_RAD * result->carrying_angle_rad));
+    if (has_carrying(all)) {
+        (void)fprintf(file, "  %-18s %8.1f deg\n", "carrying angle",
+                      (double)(DEG_PER_RAD * result->carrying_angle_rad));
+    } else {
+        report_print_words(file, "carrying angle", "unknown");
+    }
+}
+
+/* Which model the axes are of, what they are good for, and where the joint is. */
+static void print_use(FILE *file, const jcal_two_dof_auto_result_t *all)
+{
+    if (all->model != JCAL_MODEL_FUNCTIONAL) {
+        return;
+    }
+    report_print_words(
+        file, "model",
+        "functional: as on a person; each axis from motion that is mostly about it, the heading from the joint's own motion");
+    report_print_place(file, "joint to sensor 1", all->ball.joint_to_sensor1_m, all->ball.uncertainty1_m);
+    report_print_place(file, "joint to sensor 2", all->ball.joint_to_sensor2_m, all->ball.uncertainty2_m);
+    if (all->ready_for == JCAL_FOR_ANGLES) {
+        report_print_words(
+            file, "good for",
+            "angles: 'jointcal angles --joint two-dof' writes them; not for what needs the axes themselves");
+    }
 }
 
 static void print_summary(const void *self, FILE *file, const report_t *report)
 {
-    const jcal_two_dof_result_t *result = &((const two_dof_run_t *)self)->result;
+    const two_dof_run_t *run = self;
     const report_axes_t found = axes(self);
     report_print_head(file, report);
     report_print_axes(file, &found);
-    if (result->has_axes) {
-        print_heading(file, result);
+    if (has_heading(&run->all)) {
+        print_heading(file, &run->all);
     } else {
         report_print_words(file, "heading offset", "unknown");
         report_print_words(file, "carrying angle", "unknown");
     }
+    print_use(file, &run->all);
     report_print_orientations(file, report);
     report_print_state(file, report);
     report_print_exit(file, report);
@@ -274,7 +345,8 @@ static const calibrate_joint_t TWO_DOF = {.words = &TWO_DOF_WORDS,
 int two_dof_command(int argc, char **argv)
 {
     common_options_t common = {0};
-    two_dof_options_t options = {.config = jcal_two_dof_window_config_default()};
+    two_dof_options_t options = {.config = jcal_two_dof_window_config_default(),
+                                 .people = jcal_two_axes_config_default()};
     options.config.two_dof.constraint = JCAL_CONSTRAINT_COMBINED;
     common_parse(&LINE, argc, argv, &common, &options);
     return (int)calibrate(&common, &TWO_DOF, &options);

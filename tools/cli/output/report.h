@@ -33,7 +33,7 @@ typedef struct {
 
 /// Two axes and their bounds, rad.
 typedef struct {
-    bool known;
+    bool known;  ///< At least one is; the other one is zero if it is not.
     jcal_vec3_t axis1, axis2;
     float bound1, bound2;
 } report_axes_t;
@@ -50,6 +50,9 @@ typedef struct {
     int64_t ready_us;          ///< When it was entered first, as in the file.
     float max_bound;           ///< What the bounds must be below, rad or m.
 } report_t;
+
+/// False for the zeros that stand for an axis of which nothing is known.
+bool report_is_axis(jcal_vec3_t axis);
 
 /// Says so if the sign of axis 1 hangs on a tie: its two largest components are equal to within what it is uncertain by.
 void report_advise_sign(const report_axes_t *axes, check_findings_t *findings);

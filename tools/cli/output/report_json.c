@@ -29,8 +29,8 @@ void report_json_axes(json_t *json, const report_axes_t *axes)
     const float bounds[] = {DEG_PER_RAD * axes->bound1, DEG_PER_RAD * axes->bound2};
     /* Where one of two bounds is unknown it reads 90: true of any axis. */
     const bool bounded = axes->known && (axes->bound1 < BOUND_UNKNOWN_RAD || axes->bound2 < BOUND_UNKNOWN_RAD);
-    report_json_vector(json, "axis1", axes->known, axes->axis1);
-    report_json_vector(json, "axis2", axes->known, axes->axis2);
+    report_json_vector(json, "axis1", axes->known && report_is_axis(axes->axis1), axes->axis1);
+    report_json_vector(json, "axis2", axes->known && report_is_axis(axes->axis2), axes->axis2);
     json_numbers(json, "uncertainty_deg", bounded, bounds, 2);
 }
 

@@ -194,6 +194,11 @@ void report_print_words(FILE *file, const char *label, const char *words)
     }
 }
 
+bool report_is_axis(jcal_vec3_t axis)
+{
+    return axis.x != 0.0f || axis.y != 0.0f || axis.z != 0.0f;
+}
+
 static void print_axis(FILE *file, const char *label, bool known, jcal_vec3_t axis, float bound_rad)
 {
     if (!known) {
@@ -259,8 +264,8 @@ void report_print_head(FILE *file, const report_t *report)
 
 void report_print_axes(FILE *file, const report_axes_t *axes)
 {
-    print_axis(file, "axis in sensor 1", axes->known, axes->axis1, axes->bound1);
-    print_axis(file, "axis in sensor 2", axes->known, axes->axis2, axes->bound2);
+    print_axis(file, "axis in sensor 1", axes->known && report_is_axis(axes->axis1), axes->axis1, axes->bound1);
+    print_axis(file, "axis in sensor 2", axes->known && report_is_axis(axes->axis2), axes->axis2, axes->bound2);
 }
 
 void report_print_bound_mm(FILE *file, float bound_m)

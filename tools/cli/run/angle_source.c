@@ -2,6 +2,8 @@
 /* Angles row by row. */
 #include "run/angle_source.h"
 
+#include "output/report.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -17,6 +19,9 @@
 #define PER_RATE_S 0.0122f
 #define PER_GRAVITY 0.03f
 #define USUAL_FLEXION_RAD 0.0105f
+
+/* The least limit of the axes and the heading of a person's joint with two axes, rad. */
+#define PEOPLE_LEAST_RAD 0.01f
 
 /* The sign that an axis had before, or the one that the command line asks for. */
 static jcal_vec3_t settle_sign(jcal_vec3_t axis, bool has_before, jcal_vec3_t before, bool has_toward,
@@ -96,9 +101,34 @@ static bool is_accepted(const angle_source_t *source, bool has_axes)
     return source->head.status == JCAL_READY || (source->config.accept_best && has_axes);
 }
 
+/* Both models of a joint with two axes; of a person's, orientations and heading are the engine's own. */
+static bool update_two_dof(angle_source_t *source, const recording_row_t *row, jcal_orientation_pair_t *orientations)
+{
+    const jcal_pair_t readings = {orientations->t_us, row->imu1, row->imu2};
+    jcal_two_dof_auto_result_t all;
+    if (jcal_two_dof_auto_update(&source->two_dof, &readings, orientations) < 0 ||
+        jcal_two_dof_auto_get(&source->two_dof, &all) != JCAL_OK) {
+        return false;
+    }
+    const jcal_two_dof_result_t *result = &all.two_dof;
+    const bool both = report_is_axis(result->axis1) && report_is_axis(result->axis2);
+    source->head = result->head;
+    if (!is_accepted(source, result->has_axes && both)) {
+        return true;
+    }
+    set_axes(source, result->axis1, result->axis2, result->carrying_angle_rad);
+    source->joint.bound_rad =
+        fmaxf(fmaxf(result->uncertainty1_rad, result->uncertainty2_rad), result->uncertainty_heading_rad);
+    source->joint.heading_rad = result->heading_offset_rad;
+    if (all.model == JCAL_MODEL_FUNCTIONAL && isfinite(orientations->q1.w)) {
+        orientations->q1 = jcal_two_dof_auto_orientation(&source->two_dof, 1);
+        orientations->q2 = jcal_two_dof_auto_orientation(&source->two_dof, 2);
+    }
+    return true;
+}
+
 /* The calibration of this recording, up to this row. */
-static bool update_engine(angle_source_t *source, const recording_row_t *row,
-                          const jcal_orientation_pair_t *orientations)
+static bool update_engine(angle_source_t *source, const recording_row_t *row, jcal_orientation_pair_t *orientations)
 {
     source->joint.known = source->given;
     if (source->config.hinge) {
@@ -121,19 +151,7 @@ static bool update_engine(angle_source_t *source, const recording_row_t *row,
         }
         return true;
     }
-    jcal_two_dof_result_t result;
-    if (jcal_two_dof_update(&source->two_dof, orientations) < 0 ||
-        jcal_two_dof_get(&source->two_dof, &result) != JCAL_OK) {
-        return false;
-    }
-    source->head = result.head;
-    if (is_accepted(source, result.has_axes)) {
-        set_axes(source, result.axis1, result.axis2, result.carrying_angle_rad);
-        source->joint.bound_rad =
-            fmaxf(fmaxf(result.uncertainty1_rad, result.uncertainty2_rad), result.uncertainty_heading_rad);
-        source->joint.heading_rad = result.heading_offset_rad;
-    }
-    return true;
+    return update_two_dof(source, row, orientations);
 }
 
 /* The heading offset of this row: of the engine, or followed with the axes that are known. */
@@ -199,20 +217,22 @@ bool angle_source_start(angle_source_t *source, const angle_source_config_t *con
     source->given = calibration != NULL;
     source->gate_config = jcal_gate_config_default();
     jcal_hinge_auto_config_t hinge = jcal_hinge_auto_config_default();
-    jcal_two_dof_config_t two_dof = jcal_two_dof_config_default();
+    jcal_two_dof_auto_config_t two_dof = jcal_two_dof_auto_config_default();
     hinge.hinge.sign_hint = config->sign_hint;
     if (config->max_bound_rad > 0.0f) {
         hinge.hinge.max_bound_rad = config->max_bound_rad;
-        two_dof.max_bound_rad = config->max_bound_rad;
+        two_dof.two_dof.max_bound_rad = config->max_bound_rad;
+        two_dof.people.max_bound_rad = fmaxf(config->max_bound_rad, PEOPLE_LEAST_RAD);
+        two_dof.people.ball.max_heading_rad = two_dof.people.max_bound_rad;
     }
     if (config->window_s > 0.0f) {
-        two_dof.memory_s = config->window_s;
+        two_dof.two_dof.memory_s = config->window_s;
     }
     if (calibration != NULL) {
         set_axes(source, calibration->axis1, calibration->axis2, calibration->carrying_angle_rad);
     }
     return jcal_hinge_auto_init(&source->hinge, &hinge) == JCAL_OK &&
-           jcal_two_dof_init(&source->two_dof, &two_dof) == JCAL_OK;
+           jcal_two_dof_auto_init(&source->two_dof, &two_dof) == JCAL_OK;
 }
 
 /* Angles of a row whose orientations are of use. */
@@ -243,7 +263,7 @@ bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, bo
         orientations.q1.w = NAN; /* the library's time has no NaN; the sample has */
     }
     if (oriented->restarted) { /* headings of before are gone */
-        (void)jcal_two_dof_reset(&source->two_dof);
+        (void)jcal_two_dof_auto_restart(&source->two_dof);
         source->has_follower = false;
     }
     *out = (angles_row_t){.t_us = row->t_us, .has_time = row->has_time};

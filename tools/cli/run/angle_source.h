@@ -49,7 +49,7 @@ typedef struct {
     angle_source_config_t config;
     bool given; /* the calibration is; else the engines find it */
     jcal_hinge_auto_t hinge;
-    jcal_two_dof_t two_dof;
+    jcal_two_dof_auto_t two_dof;
     jcal_orientation_gate_t gate;
     jcal_gate_config_t gate_config;
     angle_joint_t joint;

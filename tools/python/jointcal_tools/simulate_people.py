@@ -83,6 +83,7 @@ class Activity:
     drift_m_s2: float = 0.0  # noise of the hip's acceleration
     ringing_deg: float = 0.0  # skin after heel strikes
     jolt_m_s2: float = 0.0  # bones after heel strikes
+    turn_deg: float = 0.0  # noise of the distal segment's turning about its own line, as a forearm does
 
 
 ACTIVITIES = {
@@ -95,6 +96,8 @@ ACTIVITIES = {
     "slow_squat": Activity(0.4, 2.5, 0.12, bend_deg=(-60.0, 80.0), free_deg=(1.0, 1.0, 1.0), free_hz=(0.05, 0.3), turning_deg=2.0, drift_m_s2=0.03),
     "swing": Activity(0.2, 1.5, 0.7, seated=True, bend_deg=(-85.0, 40.0), free_deg=(0.2, 0.3, 3.0), turning_deg=0.3, drift_m_s2=0.03),
     "random": Activity(1.0, 4.0, free_deg=(10.0, 18.0, 22.0), turning_deg=35.0, drift_m_s2=1.5),
+    "bend": Activity(0.5, 2.0, free_deg=(6.0, 10.0, 40.0), free_hz=(0.2, 0.8), turning_deg=15.0, drift_m_s2=1.0),
+    "turn": Activity(0.5, 2.0, free_deg=(5.0, 8.0, 3.0), free_hz=(0.2, 0.8), turning_deg=15.0, drift_m_s2=1.0, turn_deg=40.0),
     "stand": Activity(0.1, 0.3, free_deg=(0.3, 0.4, 0.5), free_hz=(0.1, 1.0), turning_deg=0.5, drift_m_s2=0.05),
 }
 JOINT_OUT_OF_PLANE = {"knee": 1.0, "ankle": 0.7, "elbow": 0.5}
@@ -164,6 +167,8 @@ class PersonRecording(Recording):
     p2: np.ndarray
     bone1: np.ndarray  # (N, 4) orientation of the bone as mounted: without skin
     bone2: np.ndarray
+    turn_axis2: np.ndarray  # (3,) unit, about which the distal segment turns in activity "turn"
+    turn_rad: np.ndarray  # (N,) how far
     spec: PersonSpec
 
     def extra_columns(self) -> dict[str, np.ndarray]:
@@ -176,7 +181,7 @@ class PersonRecording(Recording):
     def truth(self) -> dict:
         """What a test wants to know besides the signals, ready for JSON."""
         return {"source": "simulated (simulate_people.py)", "rate_hz": self.spec.rate_hz,
-                "axis1": self.axis1.tolist(), "axis2": self.axis2.tolist(),
+                "axis1": self.axis1.tolist(), "axis2": self.axis2.tolist(), "turn_axis2": self.turn_axis2.tolist(),
                 "joint_to_sensor1_m": self.r1.tolist(), "joint_to_sensor2_m": self.r2.tolist(), "spec": asdict(self.spec)}
 
 
@@ -186,7 +191,7 @@ class PersonRecording(Recording):
 class Motion:
     """Jets (N,) of the bones, deg turned into rad; what drives the skin beside them."""
 
-    angles: dict[str, Jet]  # yaw, sway (of gait, without the heading), roll, pitch, flexion, lower, abduction, rotation
+    angles: dict[str, Jet]  # yaw, sway (of gait, without the heading), roll, pitch, flexion, lower, abduction, rotation, turn
     base: Jet  # (3, N) hip or shoulder in the frame that turns with the heading, m
     jolt: Jet  # (3, N) of the joint centre, m
     skin: Jet  # (N,) level
@@ -300,7 +305,7 @@ def one_activity(spec: PersonSpec, name: str, index: int, clock: Clock) -> Motio
         angles, loop = pose_angles(spec.joint, activity, phase)
         base = base if activity.seated else hip_over_foot(spec.joint, angles, clock.size)
     else:
-        mean = np.radians(RANDOM_MEAN_DEG[spec.joint] if name == "random" else 5.0)
+        mean = np.radians(RANDOM_MEAN_DEG[spec.joint] if name in ("random", "bend", "turn") else 5.0)
         angles, loop = {"pitch": zero, "thigh": zero, "flexion": zero + mean}, zero
     low_hz, high_hz = activity.free_hz
     free = wander((low_hz, high_hz), 1.7, 3) + wander((high_hz, 3.0 * high_hz), 0.2, 3)  # 1 deg each
@@ -311,8 +316,10 @@ def one_activity(spec: PersonSpec, name: str, index: int, clock: Clock) -> Motio
     drift = jets.noise(rng, clock, (0.3, 3.0), 3, order=2) * activity.drift_m_s2
     jolt = jets.noise(rng, clock, JOLT_HZ, 3, order=2) * strikes * activity.jolt_m_s2
     level = jets.constant(activity.skin, clock.size)
+    turn = wander((low_hz, high_hz), activity.turn_deg)[0] if activity.turn_deg > 0.0 else zero
     return Motion({"yaw": turning, "sway": sway, "roll": roll + free_roll, "pitch": angles["pitch"] + free_pitch,
-                   "thigh": angles.get("thigh", zero), "flexion": flexion, "abduction": sideways[0], "rotation": sideways[1]},
+                   "thigh": angles.get("thigh", zero), "flexion": flexion, "abduction": sideways[0], "rotation": sideways[1],
+                   "turn": turn},
                   base + drift, jolt, level, strikes * np.radians(activity.ringing_deg))
 
 
@@ -383,7 +390,7 @@ def bones(spec: PersonSpec, motion: Motion) -> Bones:
     upright = jets.times(jets.times(heading, jets.turn(2, a["sway"])), jets.turn(0, a["roll"]))
     rotation1 = jets.times(upright, jets.turn(1, a["pitch"]))
     rotation2 = jets.times(rotation1, jets.turn(1, a["flexion"]))
-    rotation2 = jets.times(jets.times(rotation2, jets.turn(0, a["abduction"])), jets.turn(2, a["rotation"]))
+    rotation2 = jets.times(jets.times(rotation2, jets.turn(0, a["abduction"])), jets.turn(2, a["rotation"] + a["turn"]))
     down = -rotation1[:, 2] * SEGMENT_M[spec.joint]
     if spec.joint == "ankle":
         down = down - jets.times(upright, jets.turn(1, a["thigh"]))[:, 2] * SEGMENT_M["knee"]
@@ -418,6 +425,7 @@ class Sensed:
     bone: np.ndarray  # (N, 4), as mounted
     p: np.ndarray  # (N, 3)
     axis: np.ndarray  # (3,)
+    line: np.ndarray  # (3,) along the bone, up
     r: np.ndarray  # (3,)
 
 
@@ -448,7 +456,7 @@ def sense(spec: PersonSpec, index: int, clock: Clock, motion: Motion) -> Sensed:
     force = jets.into_body(sensor, place.accel + np.array([[0.0], [0.0], [GRAVITY_M_S2]]))
     q, bone = (quaternions(np.einsum("ijn,jk->ikn", jet.value, mount)) for jet in (sensor, rotation))
     return Sensed((mount.T @ jets.body_rate(sensor)).T, (mount.T @ force).T, q, bone, place.value.T,
-                  mount.T @ [0.0, 1.0, 0.0], mount.T @ r)
+                  mount.T @ [0.0, 1.0, 0.0], mount.T @ [0.0, 0.0, 1.0], mount.T @ r)
 
 
 def read_out(spec: PersonSpec, index: int, sensed: Sensed, rows: slice) -> Sensed:
@@ -472,7 +480,8 @@ def simulate_person(spec: PersonSpec) -> PersonRecording:
     return PersonRecording(clock.t_s[now], one.gyr, one.acc, two.gyr, two.acc, one.axis, two.axis, one.r, two.r,
                            a["flexion"].value[now], a["abduction"].value[now], a["rotation"].value[now],
                            (a["yaw"] + a["sway"]).value[now], bones(spec, motion).center.value.T[now],
-                           one.q, two.q, one.p, two.p, one.bone, two.bone, spec)
+                           one.q, two.q, one.p, two.p, one.bone, two.bone, two.line,
+                           a["turn"].value[now], spec)
 
 
 def main_axes(rec: PersonRecording) -> tuple[np.ndarray, np.ndarray]:
