@@ -240,7 +240,7 @@ class Refused(AnglesTest):
     def test_command_lines(self):
         self.assert_usage(["angles", "a.csv"], "which joint")
         self.assert_usage(["angles", "--joint", "hinge"], "which recording")
-        self.assert_usage(["angles", "a", "--joint", "knee"], "--joint: 'knee' is neither hinge nor two-dof")
+        self.assert_usage(["angles", "a", "--joint", "knee"], "--joint: 'knee' is neither hinge, two-dof nor ball")
         self.assert_usage(["angles", "a", "b", "--joint", "hinge"], "'b' is a second one")
         base = ["angles", "a", "--joint", "two-dof"]
         for option, values in (("--out", ["a", "a.txt", ".sto"]), ("--zero", ["here", "", "nan"]),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Joint angles from the orientations of two IMUs and what a calibration found: flexion of a hinge; flexion, pronation and
-/// carrying angle of a joint with two axes.
+/// carrying angle of a joint with two axes; of a ball joint, which has no axes, hip's and shoulder's angles from a pose.
 ///
 /// Chain: jcal_frames_hinge or jcal_frames_two_dof once per calibration; for each sample jcal_joint_orientation with the heading
 /// offset (joint_heading.h, or jcal_two_dof_get), then jcal_hinge_angles or jcal_two_dof_angles. What is zero is a
@@ -95,6 +95,33 @@ jcal_joint_angles_t jcal_hinge_angles(jcal_quat_t q_b2_b1);
 ///           keeps its accuracy near 90 deg.
 /// Threads:  no state.
 jcal_joint_angles_t jcal_two_dof_angles(jcal_quat_t q_b2_b1);
+
+/// Segment frames of a ball joint from a pose in which both coincide, such as standing upright: y is up, z is level and points about along
+/// `toward1`, by ISB to the person's right, x is forward.
+///
+/// Inputs:   q_s1_e1, q_s2_e2, heading_rad  as of jcal_joint_orientation, in the pose; toward1  a direction in sensor frame 1.
+/// Errors:   JCAL_ERR_ARG (null, orientations or heading that are none, toward1 without a level part); out untouched.
+/// Threads:  no state.
+jcal_status_t jcal_frames_pose(jcal_quat_t q_s1_e1, jcal_quat_t q_s2_e2, float heading_rad, jcal_vec3_t toward1,
+                               jcal_joint_frames_t *out);
+
+/// Hip: z-x'-y'' Euler angles of ISB (Wu et al., J. Biomech. 2002): flexion, adduction, internal rotation of the right leg. The same as
+/// jcal_two_dof_angles, with adduction in the place of the carrying angle and rotation in that of pronation.
+/// Threads:  no state.
+jcal_joint_angles_t jcal_hip_angles(jcal_quat_t q_b2_b1);
+
+/// Angles of a shoulder, rad.
+typedef struct {
+    float plane_rad;      ///< Plane of elevation, in [-pi, pi]: 0 to the side, a right angle forward (right arm).
+    float elevation_rad;  ///< In [0, pi]. ISB counts it negative.
+    float rotation_rad;   ///< Axial rotation, in [-pi, pi].
+} jcal_shoulder_angles_t;
+
+/// Shoulder: y-x'-y'' Euler angles of ISB (Wu et al., J. Biomech. 2005).
+///
+/// Where the arm hangs as in the pose (elevation below 1e-3 rad) only a sum is known: all of it is called rotation. NaN gives NaN.
+/// Threads:  no state.
+jcal_shoulder_angles_t jcal_shoulder_angles(jcal_quat_t q_b2_b1);
 
 /// Turns the segment frames so that the pose that now gives the angles `is` will give `shall` instead.
 ///

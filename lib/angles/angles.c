@@ -5,6 +5,7 @@
 
 #include "jointcal/quat.h"
 #include "math/angle.h"
+#include "math/scalar.h"
 #include "math/sphere.h"
 #include "sample/unit.h"
 
@@ -132,6 +133,53 @@ jcal_joint_angles_t jcal_two_dof_angles(jcal_quat_t q_b2_b1)
     }
     out.flexion_rad = jcal_atan2(sin_alpha, cos_alpha);
     out.pronation_rad = jcal_atan2(2.0f * ((q.w * q.y) - (q.x * q.z)), (ww - xx) + (zz - yy));
+    return out;
+}
+
+jcal_status_t jcal_frames_pose(jcal_quat_t q_s1_e1, jcal_quat_t q_s2_e2, float heading_rad, jcal_vec3_t toward1,
+                               jcal_joint_frames_t *out)
+{
+    if ((out == NULL) || !jcal_is_unit(q_s1_e1) || !jcal_is_unit(q_s2_e2) || !can_be_turned_by(heading_rad)) {
+        return JCAL_ERR_ARG;
+    }
+    const jcal_vec3_t z = jcal_quat_rotate(jcal_quat_normalise(q_s1_e1), toward1);
+    jcal_vec3_t level;
+    if (!direction_of(jcal_vec3(z.x, z.y, 0.0f), &level)) {
+        return JCAL_ERR_ARG;
+    }
+    const float w = sqrtf(0.5f * (1.0f + jcal_max(level.x, -1.0f))); /* half the angle of `level` about z */
+    const float up = copysignf(sqrtf(jcal_max(1.0f - (w * w), 0.0f)), level.y);
+    const jcal_quat_t upright = jcal_quat(0.5f, 0.5f, 0.5f, 0.5f); /* x to y, y to z, z to x */
+    const jcal_quat_t q_b_e1 = jcal_quat_mul(jcal_quat(w, 0.0f, 0.0f, up), upright);
+    const jcal_quat_t q_s2_e1 = jcal_quat_mul(about_z(heading_rad), q_s2_e2);
+    out->q_b1_s1 = jcal_quat_normalise(jcal_quat_mul(jcal_quat_conj(q_s1_e1), q_b_e1));
+    out->q_b2_s2 = jcal_quat_normalise(jcal_quat_mul(jcal_quat_conj(q_s2_e1), q_b_e1));
+    return JCAL_OK;
+}
+
+jcal_joint_angles_t jcal_hip_angles(jcal_quat_t q_b2_b1)
+{
+    return jcal_two_dof_angles(q_b2_b1);
+}
+
+jcal_shoulder_angles_t jcal_shoulder_angles(jcal_quat_t q_b2_b1)
+{
+    /* R = Ry(plane) Rx(-elevation) Ry(rotation): its second column and its second row. */
+    const jcal_quat_t q = q_b2_b1;
+    const float r01 = 2.0f * ((q.x * q.y) - (q.w * q.z));
+    const float r21 = 2.0f * ((q.y * q.z) + (q.w * q.x));
+    const float r10 = 2.0f * ((q.x * q.y) + (q.w * q.z));
+    const float r12 = 2.0f * ((q.y * q.z) - (q.w * q.x));
+    const float r11 = ((q.w * q.w) + (q.y * q.y)) - ((q.x * q.x) + (q.z * q.z));
+    const float sine = sqrtf((r01 * r01) + (r21 * r21));
+    jcal_shoulder_angles_t out = {0.0f, jcal_atan2(sine, r11), 0.0f};
+    if (sine < PARALLEL_COS) {
+        out.rotation_rad =
+            jcal_atan2(2.0f * ((q.x * q.z) + (q.w * q.y)), ((q.w * q.w) + (q.x * q.x)) - ((q.y * q.y) + (q.z * q.z)));
+        return out;
+    }
+    out.plane_rad = jcal_atan2(-r01, -r21);
+    out.rotation_rad = jcal_atan2(-r10, r12);
     return out;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* `jointcal angles`: rows in, angles out. */
 #include "commands/angles_options.h"
+#include "commands/ball.h"
 #include "commands/commands.h"
 #include "commands/hinge.h"
 #include "commands/two_dof.h"
@@ -42,15 +43,21 @@ static bool is_refused(session_t *session)
     return session->findings.refuses;
 }
 
+static const report_words_t *words_of(const angle_source_config_t *source)
+{
+    if (source->ball) {
+        return &BALL_WORDS;
+    }
+    return source->hinge ? &HINGE_WORDS : &TWO_DOF_WORDS;
+}
+
 /* Why there are no angles, or none at the end; and what else there is to say of the recording. On standard error. */
 static void tell(const session_t *session)
 {
     const angle_source_t *source = &session->source;
     const check_findings_t *findings = &session->findings;
     const char *name = session->reading.input.name;
-    report_t report = {.words = session->options.source.hinge ? &HINGE_WORDS : &TWO_DOF_WORDS,
-                       .head = source->head,
-                       .findings = *findings};
+    report_t report = {.words = words_of(&session->options.source), .head = source->head, .findings = *findings};
     size_t told = 0;
     if (source->rows == 0) {
         report_apply_findings(&report);
@@ -100,13 +107,14 @@ static exit_status_t run_rows(session_t *session)
 
 static exit_status_t run_recording(session_t *session)
 {
-    const recording_event_t event =
-        orientations_open(&session->orientations, &session->reading.recording, session->options.source.hinge);
+    const recording_event_t event = orientations_open(&session->orientations, &session->reading.recording,
+                                                      session->options.source.hinge || session->options.source.ball);
     if (event != RECORDING_ROW) {
         return reading_give_up(&session->reading, event);
     }
     session->source.config.own_orientations = session->orientations.source == ORIENTATIONS_FROM_JOINT;
     session->reading.recording.check.times_only = session->orientations.source == ORIENTATIONS_FROM_COLUMNS &&
+                                                  !session->options.source.ball &&
                                                   (session->source.given || !session->options.source.hinge);
     exit_status_t status = angle_table_open(&session->table, &session->options.table);
     if (status == EXIT_READY) {

@@ -20,11 +20,17 @@ enum {
     KEY_TOWARD2,
     KEY_POSITIVE,
     KEY_ACCEPT,
+    KEY_SEQUENCE,
     KEY_NAME /* and one more for each column */
 };
 
 static const struct argp_option OPTIONS[] = {
-    {"joint", KEY_JOINT, "KIND", 0, "hinge (flexion) or two-dof (flexion, pronation, carrying angle)", 0},
+    {"joint", KEY_JOINT, "KIND", 0,
+     "hinge (flexion), two-dof (flexion, pronation, carrying angle) or ball (hip or shoulder, see --sequence)", 0},
+    {"sequence", KEY_SEQUENCE, "NAME", 0,
+     "Angles of a ball joint, as ISB has them. hip (default): flexion, adduction, rotation, z-x'-y''; shoulder: plane of elevation, "
+     "elevation, axial rotation, y-x'-y''. They count from the pose of --zero, in which the person stands upright",
+     0},
     {"out", KEY_OUT, "FILE", 0, "Write to FILE.csv, or to FILE.sto for OpenSim (default: CSV on standard output)", 0},
     {"calibration", KEY_CALIBRATION, "FILE", 0,
      "Axes from a line of --json output of 'jointcal hinge' or 'jointcal two-dof', the last one that is ready, instead "
@@ -160,14 +166,28 @@ static error_t parse_table(int key, char *argument, struct argp_state *state, an
     }
 }
 
+static void set_joint(struct argp_state *state, const char *text, angles_options_t *options)
+{
+    static const char *const kinds[] = {"hinge", "two-dof", "ball"};
+    const int kind = option_one_of_three(state, "joint", text, kinds);
+    options->source.hinge = kind == 0;
+    options->source.ball = kind == 2;
+    options->table.hinge = options->source.hinge;
+    options->table.ball = options->source.ball;
+    options->has_joint = true;
+}
+
 static error_t parse(int key, char *argument, struct argp_state *state, void *self)
 {
     angles_options_t *options = self;
     switch (key) {
     case KEY_JOINT:
-        options->source.hinge = option_one_of_two(state, "joint", argument, "hinge", "two-dof") == 0;
-        options->table.hinge = options->source.hinge;
-        options->has_joint = true;
+        set_joint(state, argument, options);
+        return 0;
+    case KEY_SEQUENCE:
+        options->source.shoulder = option_one_of_two(state, "sequence", argument, "hip", "shoulder") == 1;
+        options->table.shoulder = options->source.shoulder;
+        options->has_sequence = true;
         return 0;
     case KEY_CALIBRATION:
         options->calibration = argument;
@@ -196,6 +216,33 @@ static void check_hinge(struct argp_state *state, const angles_options_t *option
     if (!options->source.hinge && options->source.sign_hint != JCAL_SIGN_UNKNOWN) {
         argp_error(state, "--sign-hint goes with --joint hinge only");
     }
+}
+
+/* A ball joint has no axes: a pose and the person's right take their place. */
+static void check_ball(struct argp_state *state, angles_options_t *options)
+{
+    angle_source_config_t *source = &options->source;
+    angle_table_config_t *table = &options->table;
+    if (!source->ball) {
+        if (options->has_sequence) {
+            argp_error(state, "--sequence goes with --joint ball only");
+        }
+        return;
+    }
+    if (!source->has_toward1) {
+        argp_error(
+            state,
+            "--joint ball needs --axis1-toward X,Y,Z: about where the person's right is in the frame of sensor 1");
+    }
+    if (source->has_toward2 || options->calibration != NULL || table->zero == ZERO_RANGE || table->signs_by_range ||
+        source->window_s > 0.0f) {
+        argp_error(
+            state,
+            "--axis2-toward, --calibration, --zero range, --signs range and --window do not go with --joint ball");
+    }
+    source->has_pose_time = table->zero == ZERO_TIME;
+    source->pose_us = table->zero_us;
+    table->zero = ZERO_NONE; /* angles come counted from the pose */
 }
 
 static void check_names(struct argp_state *state, const angle_table_config_t *table)
@@ -232,9 +279,10 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
     source->max_bound_rad = common->max_bound;
     source->sign_hint = common->sign_hint;
     if (!options->has_joint) {
-        argp_error(state, "which joint? Give --joint hinge or --joint two-dof");
+        argp_error(state, "which joint? Give --joint hinge, --joint two-dof or --joint ball");
     }
     check_hinge(state, options);
+    check_ball(state, options);
     check_table(state, options);
     check_names(state, &options->table);
     if (options->calibration != NULL && source->accept_best) {
@@ -253,14 +301,15 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
 }
 
 const command_line_t ANGLES_LINE = {
-    .args_doc = "RECORDING.csv --joint hinge|two-dof",
+    .args_doc = "RECORDING.csv --joint hinge|two-dof|ball",
     .doc =
         "Computes the angles of a joint from a recording of arbitrary motion.\v"
         "The recording is as for 'jointcal hinge'. Orientations are taken from the columns q1_w, q1_x, q1_y, q1_z, q2_w ... "
         "q2_z if they are there: unit quaternions that turn from the sensor's frame to an earth frame with z up, each with a "
         "heading of its own. Else the filter VQF finds them.\n"
         "\n"
-        "Columns written: t_s, flexion_deg; with two axes also pronation_deg, carrying_deg, heading_offset_deg. There is "
+        "Columns written: t_s, flexion_deg; with two axes also pronation_deg, carrying_deg, heading_offset_deg; of a ball joint "
+        "flexion_deg, rotation_deg, adduction_deg or elevation_deg, axial_rotation_deg, plane_of_elevation_deg, and heading_offset_deg. There is "
         "a row for each row of the recording; its angles are empty while the calibration is not ready. Flexion and pronation go on beyond "
         "180 degrees instead of jumping by 360. A .sto file "
         "holds only rows with angles.\n"

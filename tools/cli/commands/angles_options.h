@@ -12,7 +12,7 @@
 
 /// What was given; all zero before.
 typedef struct {
-    bool has_joint;
+    bool has_joint, has_sequence;
     const char *calibration;  ///< File name, or null.
     angle_source_config_t source;
     angle_table_config_t table;

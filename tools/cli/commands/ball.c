@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* `jointcal ball`: its options, what it writes. */
+#include "commands/ball.h"
+
 #include "commands/commands.h"
 #include "options/values.h"
 #include "run/calibrate.h"
@@ -98,7 +100,7 @@ static const jcal_head_t *get(void *self)
 
 /* ---- What is written ---- */
 
-static const report_words_t WORDS = {
+const report_words_t BALL_WORDS = {
     .name = "Ball joint",
     .misfit = "no joint explains the data: sensors that share none",
     .ambiguous = "another heading explains the data about equally",
@@ -173,7 +175,7 @@ static void print_summary(const void *self, FILE *file, const report_t *report)
 
 /* ---- The command ---- */
 
-static const calibrate_joint_t BALL = {.words = &WORDS,
+static const calibrate_joint_t BALL = {.words = &BALL_WORDS,
                                        .uses_readings = true,
                                        .size = sizeof(ball_run_t),
                                        .start = start,

@@ -64,6 +64,8 @@ static void write_row(angle_table_t *table, const angles_row_t *row)
         if (table->has_last) {
             angles.flexion_rad = follow(angles.flexion_rad, table->last_deg.flexion_rad);
             angles.pronation_rad = follow(angles.pronation_rad, table->last_deg.pronation_rad);
+            angles.carrying_rad =
+                config->shoulder ? follow(angles.carrying_rad, table->last_deg.carrying_rad) : angles.carrying_rad;
         }
         table->last_deg = angles;
         table->has_last = row->bound_rad < FOLLOW_BOUND_RAD;
@@ -81,12 +83,21 @@ static void write_row(angle_table_t *table, const angles_row_t *row)
     (void)fputc('\n', file);
 }
 
+/* Names of the columns of CSV; those of a storage file are without the unit. */
+static const char *name_of(const angle_table_config_t *config, int column)
+{
+    static const char *const usual[ANGLE_TABLE_COLUMNS] = {"flexion", "pronation", "carrying", "heading_offset",
+                                                           "bound"};
+    static const char *const hip[] = {"flexion", "rotation", "adduction"};
+    static const char *const shoulder[] = {"elevation", "axial_rotation", "plane_of_elevation"};
+    if (!config->ball || column > ANGLE_CARRYING) {
+        return usual[column];
+    }
+    return config->shoulder ? shoulder[column] : hip[column];
+}
+
 static void write_header(const angle_table_t *table, uint64_t rows)
 {
-    static const char *const csv_names[ANGLE_TABLE_COLUMNS] = {"flexion_deg", "pronation_deg", "carrying_deg",
-                                                               "heading_offset_deg", "bound_deg"};
-    static const char *const sto_names[ANGLE_TABLE_COLUMNS] = {"flexion", "pronation", "carrying", "heading_offset",
-                                                               "bound"};
     const angle_table_config_t *config = table->config;
     FILE *file = table->file;
     int columns = 1;
@@ -101,8 +112,8 @@ static void write_header(const angle_table_t *table, uint64_t rows)
     for (int k = 0; k < ANGLE_TABLE_COLUMNS; k++) {
         if (has_column(config, k)) {
             const char *given = config->sto ? config->names[k] : NULL;
-            const char *usual = config->sto ? sto_names[k] : csv_names[k];
-            (void)fprintf(file, "%c%s", config->sto ? '\t' : ',', (given != NULL) ? given : usual);
+            (void)fprintf(file, "%c%s%s", config->sto ? '\t' : ',', (given != NULL) ? given : name_of(config, k),
+                          config->sto ? "" : "_deg");
         }
     }
     (void)fputc('\n', file);

@@ -33,7 +33,9 @@ typedef enum {
 
 typedef struct {
     const char *out;  ///< File name, or null for standard output.
-    bool hinge;       ///< Else two axes.
+    bool hinge;       ///< Else two axes, or
+    bool ball;        ///< none: flexion, rotation and adduction of a hip
+    bool shoulder;    ///< or elevation, axial rotation and plane of elevation of a shoulder, in these places.
     bool sto;         ///< `out` is to be an OpenSim storage file.
     zero_t zero;
     int64_t zero_us;                ///< With ZERO_TIME, as in the recording.

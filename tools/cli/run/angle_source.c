@@ -127,10 +127,35 @@ static bool update_two_dof(angle_source_t *source, const recording_row_t *row, j
     return true;
 }
 
+/* A ball joint: its heading, and orientations of its own. */
+static bool update_ball(angle_source_t *source, const recording_row_t *row, jcal_orientation_pair_t *orientations)
+{
+    jcal_pair_t pair = {orientations->t_us, row->imu1, row->imu2};
+    if (!row->has_time) {
+        pair.imu1.gyr_rad_s.x = NAN;
+    }
+    jcal_ball_result_t result;
+    if (jcal_ball_pair_update(&source->ball, &pair) < 0 || jcal_ball_pair_get(&source->ball, &result) != JCAL_OK) {
+        return false;
+    }
+    source->head = result.head;
+    source->joint.known = is_accepted(source, result.has_estimate) && result.heading.known;
+    source->joint.heading_rad = result.heading.heading_rad;
+    source->joint.bound_rad = result.uncertainty_heading_rad;
+    if (isfinite(orientations->q1.w)) {
+        orientations->q1 = jcal_sensor_orientation(&source->ball.sensors.sensor1);
+        orientations->q2 = jcal_sensor_orientation(&source->ball.sensors.sensor2);
+    }
+    return true;
+}
+
 /* The calibration of this recording, up to this row. */
 static bool update_engine(angle_source_t *source, const recording_row_t *row, jcal_orientation_pair_t *orientations)
 {
     source->joint.known = source->given;
+    if (source->config.ball) {
+        return update_ball(source, row, orientations);
+    }
     if (source->config.hinge) {
         jcal_pair_t pair = {orientations->t_us, row->imu1, row->imu2};
         if (!row->has_time) {
@@ -161,7 +186,7 @@ static bool update_heading(angle_source_t *source, const jcal_orientation_pair_t
     const bool hinge = source->config.hinge;
     const float memory_s = (source->config.window_s > 0.0f) ? source->config.window_s : MEMORY_S;
     *heading = (jcal_heading_t){joint->heading_rad, joint->known};
-    if (source->config.own_orientations && !source->given) {
+    if (source->config.own_orientations && !source->given && !source->config.ball) {
         *heading = (jcal_heading_t){source->own_heading.heading_rad, joint->known && source->own_heading.known};
         return true;
     }
@@ -182,11 +207,41 @@ static bool update_heading(angle_source_t *source, const jcal_orientation_pair_t
            jcal_joint_heading_get(follower, heading) == JCAL_OK;
 }
 
+/* Angles of a ball joint; its segment frames are those of the pose. */
+static void compute_ball(const angle_source_t *source, const jcal_orientation_pair_t *orientations, float heading_rad,
+                         jcal_joint_angles_t *angles)
+{
+    const jcal_quat_t q = jcal_joint_orientation(&source->frames, orientations->q1, orientations->q2, heading_rad);
+    if (source->config.shoulder) {
+        const jcal_shoulder_angles_t found = jcal_shoulder_angles(q);
+        *angles = (jcal_joint_angles_t){found.elevation_rad, found.rotation_rad, found.plane_rad};
+    } else {
+        *angles = jcal_hip_angles(q);
+    }
+}
+
+/* The pose that angles of a ball joint count from, once it has come. */
+static void take_pose(angle_source_t *source, const jcal_orientation_pair_t *orientations, float heading_rad,
+                      int64_t t_us)
+{
+    const angle_source_config_t *config = &source->config;
+    if (source->has_pose || (config->has_pose_time && t_us < config->pose_us)) {
+        return;
+    }
+    source->has_pose =
+        jcal_frames_pose(orientations->q1, orientations->q2, heading_rad, config->toward1, &source->frames) ==
+        JCAL_OK; /* with the person's right upright there is none yet */
+}
+
 /* Angles with the axes and the heading of this row. */
 static bool compute(const angle_source_t *source, const jcal_orientation_pair_t *orientations, float heading_rad,
                     jcal_joint_angles_t *angles)
 {
     const angle_joint_t *joint = &source->joint;
+    if (source->config.ball) {
+        compute_ball(source, orientations, heading_rad, angles);
+        return true;
+    }
     if (source->config.own_orientations &&
         !source->given) { /* the engine keeps the zero where it is while the axes improve */
         *angles = (jcal_joint_angles_t){.flexion_rad = source->sign * jcal_hinge_auto_flexion(&source->hinge)};
@@ -231,7 +286,12 @@ bool angle_source_start(angle_source_t *source, const angle_source_config_t *con
     if (calibration != NULL) {
         set_axes(source, calibration->axis1, calibration->axis2, calibration->carrying_angle_rad);
     }
+    jcal_ball_config_t ball = jcal_ball_config_default();
+    if (config->max_bound_rad > 0.0f) {
+        ball.max_heading_rad = fmaxf(config->max_bound_rad, PEOPLE_LEAST_RAD);
+    }
     return jcal_hinge_auto_init(&source->hinge, &hinge) == JCAL_OK &&
+           jcal_ball_pair_init(&source->ball, &ball, NULL) == JCAL_OK &&
            jcal_two_dof_auto_init(&source->two_dof, &two_dof) == JCAL_OK;
 }
 
@@ -245,6 +305,10 @@ static bool angles_of(angle_source_t *source, jcal_orientation_pair_t *orientati
         return false;
     }
     out->known = source->joint.known && heading.known;
+    if (source->config.ball && out->known) {
+        take_pose(source, orientations, heading.heading_rad, out->t_us);
+        out->known = source->has_pose;
+    }
     source->at_end = out->known;
     if (!out->known) {
         return true;
@@ -272,7 +336,7 @@ bool angle_source_row(angle_source_t *source, const oriented_row_t *oriented, bo
     if (runs && !update_engine(source, row, &orientations)) {
         return false;
     }
-    if (source->config.own_orientations && oriented->reject == JCAL_REJECT_NONE) {
+    if (source->config.own_orientations && !source->config.ball && oriented->reject == JCAL_REJECT_NONE) {
         orientations.q1 = jcal_hinge_auto_orientation(&source->hinge, 1);
         orientations.q2 = jcal_hinge_auto_orientation(&source->hinge, 2);
     }

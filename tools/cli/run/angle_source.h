@@ -12,7 +12,11 @@
 #include "jointcal/jointcal.h"
 
 typedef struct {
-    bool hinge;  ///< Else two axes.
+    bool hinge;     ///< Else two axes, or
+    bool ball;      ///< none: angles from a pose, axis 1 stands for the person's right.
+    bool shoulder;  ///< Of a ball joint: the shoulder's angles, else the hip's.
+    bool has_pose_time;
+    int64_t pose_us;  ///< Time of that pose, as in the recording; the first row whose heading is known, else.
     bool has_toward1, has_toward2;
     jcal_vec3_t toward1, toward2;  ///< Where the axes point about.
     bool accept_best;              ///< Take the best estimate, whatever its status.
@@ -50,6 +54,9 @@ typedef struct {
     bool given; /* the calibration is; else the engines find it */
     jcal_hinge_auto_t hinge;
     jcal_two_dof_auto_t two_dof;
+    jcal_ball_pair_t ball;
+    jcal_joint_frames_t frames; /* of a ball joint, from its pose */
+    bool has_pose;
     jcal_orientation_gate_t gate;
     jcal_gate_config_t gate_config;
     angle_joint_t joint;
