@@ -23,11 +23,11 @@ PAGE = target.ROOT / "docs/measurements/budget.md"
 M4F = target.PLATFORMS["m4f"]
 ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
 TWO_DOF, CENTER, CHAIN, SENSOR = "two_dof_stream", "center_stream", "chain", "sensor"
-FUNCTIONAL, AUTO = "functional_hinge", "hinge_auto"
+FUNCTIONAL, AUTO, TWO_AXES = "functional_hinge", "hinge_auto", "two_axes"
 DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN", SENSOR: "REPLAY_SENSOR",
-           FUNCTIONAL: "REPLAY_FUNCTIONAL", AUTO: "REPLAY_AUTO"}
+           FUNCTIONAL: "REPLAY_FUNCTIONAL", AUTO: "REPLAY_AUTO", TWO_AXES: "REPLAY_TWO_AXES"}
 INSTANCES, RATE_HZ = 16, 100
-KNEE = "people_knee_long_R1"
+KNEE, ELBOW = "people_knee_long_R1", "people_elbow_B_JA_Fast"
 SLICES_PER_S, TABLED_HZ = (200, 100, 50, 25), (50, 100)
 LISTED = 8
 
@@ -157,27 +157,36 @@ def by_readiness(key: str, counts: list[int], before_ready: int) -> dict:
             f"{key}_mean_once_ready": round(statistics.mean(counts[before_ready:] or counts))}
 
 
-def functional(stack: dict[str, int]) -> dict:
-    """The functional hinge on a knee at 100 Hz, without its sensors: each jcal_functional_add and each jcal_functional_step; per sample
-    both together."""
-    samples = target.samples_file(target.recordings([KNEE])[0], RATE_HZ)
-    split, worst, shown = counts_of(target.build_plugin(), FUNCTIONAL, samples, ("REPLAY_SPLIT", "REPLAY_SHOW_SLICES"))
-    counts, _, printed = counts_of(target.build_plugin(), FUNCTIONAL, samples, ("REPLAY_STACK",))
+def of_ticks(engine: str, prefix: str, recording: Path, stack: dict[str, int], last: str) -> dict:
+    """A joint of ticks at 100 Hz, without its sensors: each add and each step; per sample both together."""
+    samples = target.samples_file(recording, RATE_HZ)
+    split, worst, shown = counts_of(target.build_plugin(), engine, samples, ("REPLAY_SPLIT", "REPLAY_SHOW_SLICES"))
+    counts, _, printed = counts_of(target.build_plugin(), engine, samples, ("REPLAY_STACK",))
     if "--profile" in sys.argv:
         for slice_ in sorted(set(shown["slices"])):
             of = [count for number, count in zip(shown["slices"], split["step"]) if number == slice_]
-            print(f"functional, slice {slice_}: {len(of)} times, max {max(of)}, mean {statistics.mean(of):.0f}")
+            print(f"{engine}, slice {slice_}: {len(of)} times, max {max(of)}, mean {statistics.mean(of):.0f}")
         for name, count in sorted(worst["step"].items(), key=lambda item: -item[1])[:LISTED]:
             print(f"    {count:8d}  {name}")
-    calls = [f"jcal_functional_{name}" for name in ("add", "step", "get", "flexion")]
-    return {f"{FUNCTIONAL}_add_instructions_max": max(split["push"]), f"{FUNCTIONAL}_add_instructions_mean": round(statistics.mean(split["push"])),
-            f"{FUNCTIONAL}_step_instructions_max": max(split["step"]),
-            f"{FUNCTIONAL}_step_instructions_mean": round(sum(split["step"]) / printed["samples"]),
-            **by_readiness(f"{FUNCTIONAL}_sample_instructions", counts["update"], printed["before_ready"]),
-            f"{FUNCTIONAL}_sample_instructions_max": max(counts["update"]), f"{FUNCTIONAL}_state_bytes": printed["state"],
-            f"{FUNCTIONAL}_stack_painted_bytes": printed["stack"],
-            f"{FUNCTIONAL}_stack_call_graph_bytes": max(stack.get(name, 0) for name in calls),
-            f"{FUNCTIONAL}_code_bytes": linked_bytes("hub_functional", ("HUB_FUNCTIONAL",)) - linked_bytes("hub_empty", ("HUB_EMPTY",))}
+    calls = [f"jcal_{prefix}_{name}" for name in ("add", "step", "get")] + [last]
+    return {f"{engine}_add_instructions_max": max(split["push"]), f"{engine}_add_instructions_mean": round(statistics.mean(split["push"])),
+            f"{engine}_step_instructions_max": max(split["step"]),
+            f"{engine}_step_instructions_mean": round(sum(split["step"]) / printed["samples"]),
+            **by_readiness(f"{engine}_sample_instructions", counts["update"], printed["before_ready"]),
+            f"{engine}_sample_instructions_max": max(counts["update"]), f"{engine}_state_bytes": printed["state"],
+            f"{engine}_stack_painted_bytes": printed["stack"],
+            f"{engine}_stack_call_graph_bytes": max(stack.get(name, 0) for name in calls),
+            f"{engine}_code_bytes": linked_bytes(f"hub_{prefix}", (f"HUB_{prefix.upper()}",)) - linked_bytes("hub_empty", ("HUB_EMPTY",))}
+
+
+def functional(stack: dict[str, int]) -> dict:
+    """The functional hinge on a knee."""
+    return of_ticks(FUNCTIONAL, "functional", target.recordings([KNEE])[0], stack, "jcal_functional_flexion")
+
+
+def two_axes(stack: dict[str, int]) -> dict:
+    """A person's joint with two axes on an elbow: the ball joint, and axes from windows."""
+    return of_ticks(TWO_AXES, "two_axes", target.recordings([ELBOW], "elbow_demo")[0], stack, "jcal_ball_relative")
 
 
 def hinge_auto(stack: dict[str, int]) -> dict:
@@ -247,7 +256,7 @@ def measure(samples: Path, recording: Path) -> tuple[dict, dict]:
         numbers[f"hinge_{engine}_state_bytes"] = of["state"]
         numbers[f"hinge_{engine}_stack_painted_bytes"] = of["stack"]
         numbers[f"hinge_{engine}_stack_call_graph_bytes"] = stack.get(f"jcal_{prefix}_update", 0)
-    numbers |= two_dof(stack) | center(stack) | chain(stack) | sensor(stack) | functional(stack) | hinge_auto(stack)
+    numbers |= two_dof(stack) | center(stack) | chain(stack) | sensor(stack) | functional(stack) | two_axes(stack) | hinge_auto(stack)
     numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
     numbers |= sixteen(recording)
     numbers["hub_flash_bytes"] = linked_bytes("hub") - linked_bytes("hub_empty", ("HUB_EMPTY",))
@@ -280,7 +289,7 @@ def page_of(numbers: dict, code: dict) -> str:
              "orientations by VQF, whose cost is not in these numbers (port/vqf/README.md has it). `sensor`: jcal_sensor_push, one sensor at 100 Hz;",
              "`uneven`: samples up to 2 ms off, so that coefficients change with each. `functional_hinge`: a person's knee at 100 Hz, ticks and",
              "steps without the stages of its sensors; `step_instructions_mean` is of all steps for a sample. `functional_hinge_code_bytes`: what two",
-             "sensors and one such hinge add to a linked image. `hinge_auto`: jcal_hinge_auto_update on the same knee, with all it contains. Sixteen hinges: in their busiest second that is "
+             "sensors and one such hinge add to a linked image. `two_axes`: the same of a person's elbow. `hinge_auto`: jcal_hinge_auto_update on the same knee, with all it contains. Sixteen hinges: in their busiest second that is "
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * low / 1e6:.0f} to",
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * high / 1e6:.0f} million cycles, by the estimate below, of 64 million.", "",
              "Instructions, not cycles; no board was measured. On paper, the instructions of the stream engine on this recording",
@@ -324,6 +333,7 @@ def main() -> int:
     if arguments.profile:
         print_profile(instructions(samples))
         functional({})
+        two_axes({})
         hinge_auto({})
         return 0
     numbers, code = measure(samples, recording)

@@ -17,6 +17,7 @@ HINGES = ["rig_1D_01", "rig_1D_02", "rig_1D_04"], "hinge_demo"
 CENTER = ["rig_3D_01", "rig_3D_02", "rig_2D_05"], "two_dof_demo"
 CHAIN = ["human_leg_left"], "chain_demo"
 KNEE = ["people_knee_long_R1", "knee_drop", "rig_1D_01"], "hinge_demo"
+ELBOW = ["people_elbow_D_ROM", "human_elbow_right", "rig_2D_02"], "elbow_demo"
 SENSOR = ["knee_drop", "people_ankle_orthosis", "rig_1D_01"], "hinge_demo"
 TWO_DOF = ["rig_2D_01", "rig_2D_02", "rig_2D_05"], "two_dof_demo"
 # What the image is called, its definitions, recordings, and how they become samples.
@@ -27,6 +28,7 @@ ENGINES = {"hinge, stream": ("hinge_stream", (), HINGES, target.samples_file),
            "chain": ("chain", ("REPLAY_CHAIN",), CHAIN, target.triples_file),
            "one sensor": ("sensor", ("REPLAY_SENSOR",), SENSOR, target.readings_file),
            "hinge, functional": ("functional", ("REPLAY_FUNCTIONAL",), KNEE, target.samples_file),
+           "two axes, functional": ("two_axes", ("REPLAY_TWO_AXES",), ELBOW, target.samples_file),
            "hinge of either kind": ("hinge_auto", ("REPLAY_AUTO",), KNEE, target.samples_file)}
 # With the buffers of the program more than 16 KiB.
 NOT_ON = {"hinge, window, N_max 125": ("m0",), "chain": ("m0",)}

@@ -45,7 +45,7 @@ enum {
     IDLE
 };
 
-typedef char jcal_ball_fits_its_budget[(sizeof(jcal_ball_t) <= 1536u) ? 1 : -1];
+typedef char jcal_ball_fits_its_budget[(sizeof(jcal_ball_t) <= 1024u) ? 1 : -1];
 
 /// Empties what was learnt of the joint: all that follows the settings.
 static void clear(jcal_ball_t *self)

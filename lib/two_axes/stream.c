@@ -10,7 +10,7 @@
 
 #include <stddef.h>
 
-typedef char jcal_two_axes_fits_its_budget[(sizeof(jcal_two_axes_t) <= 2304u) ? 1 : -1];
+typedef char jcal_two_axes_fits_its_budget[(sizeof(jcal_two_axes_t) <= 1536u) ? 1 : -1];
 
 static void clear(jcal_two_axes_t *self)
 {

@@ -7,7 +7,8 @@
  *
  * Compile definitions: REPLAY_TWO_DOF, REPLAY_CENTER, REPLAY_CHAIN (stream engine of the 2-DoF joint, of the joint centre, of
  * hip and knee; otherwise that of the hinge), REPLAY_SENSOR (the stage of one sensor), REPLAY_FUNCTIONAL (the functional hinge: a push is
- * jcal_functional_add at a tick, a step one jcal_functional_step, an update both; the stages of its sensors are not counted),
+ * jcal_functional_add at a tick, a step one jcal_functional_step, an update both; the stages of its sensors are not counted), REPLAY_TWO_AXES
+ * (a person's joint with two axes, in the same way),
  * REPLAY_SHOW_SLICES (a line before each step of it: which slice), REPLAY_AUTO (a hinge of either kind), REPLAY_WINDOW (window engine of the hinge, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
  * the stack before every call and print how deep the deepest one went). */
@@ -18,6 +19,7 @@
 #include "jointcal/hinge_auto.h"
 #include "jointcal/hinge_window.h"
 #include "jointcal/sensor.h"
+#include "jointcal/two_axes.h"
 #include "jointcal/two_dof.h"
 
 #include <math.h>
@@ -115,18 +117,40 @@ static jcal_status_t engine_get(const jcal_sensor_t *self, result_t *out)
     return JCAL_OK;
 }
 #elif defined(REPLAY_FUNCTIONAL)
+#define OF_TICKS
 typedef jcal_pair_t sample_t;
 typedef jcal_functional_result_t result_t;
 static jcal_functional_t replayed;
 static jcal_sensor_t sensors[2];
 static uint64_t last_us;
 #define engine_get jcal_functional_get
+#define joint_add jcal_functional_add
+#define joint_step jcal_functional_step
+#define joint_slice replayed.slice
 
 static jcal_status_t engine_init(void)
 {
     const jcal_functional_config_t config = jcal_functional_config_default();
     const bool ready = (jcal_sensor_init(&sensors[0]) == JCAL_OK) && (jcal_sensor_init(&sensors[1]) == JCAL_OK);
     return ready ? jcal_functional_init(&replayed, &config) : JCAL_ERR_ARG;
+}
+#elif defined(REPLAY_TWO_AXES)
+#define OF_TICKS
+typedef jcal_pair_t sample_t;
+typedef jcal_two_axes_result_t result_t;
+static jcal_two_axes_t replayed;
+static jcal_sensor_t sensors[2];
+static uint64_t last_us;
+#define engine_get jcal_two_axes_get
+#define joint_add jcal_two_axes_add
+#define joint_step jcal_two_axes_step
+#define joint_slice replayed.ball.slice
+
+static jcal_status_t engine_init(void)
+{
+    const jcal_two_axes_config_t config = jcal_two_axes_config_default();
+    const bool ready = (jcal_sensor_init(&sensors[0]) == JCAL_OK) && (jcal_sensor_init(&sensors[1]) == JCAL_OK);
+    return ready ? jcal_two_axes_init(&replayed, &config) : JCAL_ERR_ARG;
 }
 #elif defined(REPLAY_AUTO)
 typedef jcal_pair_t sample_t;
@@ -220,8 +244,8 @@ __attribute__((noinline)) void replay_mark_end(void)
     replay_place = 0;
 }
 
-#ifdef REPLAY_FUNCTIONAL
-/* As jcal_functional_pair_update, with the marks of the parts that are asked for. */
+#ifdef OF_TICKS
+/* As jcal_functional_pair_update and its like, with the marks of the parts that are asked for. */
 static void mark_part(void (*mark)(void))
 {
 #ifdef REPLAY_SPLIT
@@ -237,10 +261,10 @@ static void step_all(uint64_t t_us)
     jcal_status_t status = JCAL_OK;
     for (unsigned k = 0; (k < most) && (status == JCAL_OK); ++k) {
 #ifdef REPLAY_SHOW_SLICES
-        printf("slice %u\n", (unsigned)replayed.slice);
+        printf("slice %u\n", (unsigned)joint_slice);
 #endif
         mark_part(replay_mark_step);
-        status = jcal_functional_step(&replayed);
+        status = joint_step(&replayed);
         mark_part(replay_mark_end);
     }
 }
@@ -255,7 +279,7 @@ static __attribute__((noinline)) void call_engine(const sample_t *pair)
 #endif
     if ((of1 == JCAL_TICK) && (of2 == JCAL_TICK)) {
         mark_part(replay_mark_push);
-        (void)jcal_functional_add(&replayed, jcal_sensor_tick(&sensors[0]), jcal_sensor_tick(&sensors[1]));
+        (void)joint_add(&replayed, jcal_sensor_tick(&sensors[0]), jcal_sensor_tick(&sensors[1]));
         mark_part(replay_mark_end);
     }
     step_all(pair->t_us);
@@ -420,6 +444,46 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
                             r->progress_axis2,
                             r->progress_sign,
                             flexion};
+#elif defined(REPLAY_TWO_AXES)
+static uint64_t hash_floats(uint64_t hash, const result_t *r)
+{
+    const jcal_ball_result_t *const b = &r->ball;
+    hash = hash_u64(hash,
+                    (r->for_heading ? 1u : 0u) + (r->for_axis1 ? 2u : 0u) + (r->for_axis2 ? 4u : 0u) +
+                        (b->for_center1 ? 8u : 0u) + (b->for_center2 ? 16u : 0u) + (b->heading.known ? 32u : 0u) +
+                        (64u * r->windows1) + (16384u * r->windows2),
+                    4);
+    const jcal_quat_t q =
+        jcal_ball_relative(&replayed.ball, jcal_sensor_orientation(&sensors[0]), jcal_sensor_orientation(&sensors[1]));
+    const float floats[] = {r->axis1.x,
+                            r->axis1.y,
+                            r->axis1.z,
+                            r->axis2.x,
+                            r->axis2.y,
+                            r->axis2.z,
+                            r->uncertainty1_rad,
+                            r->uncertainty2_rad,
+                            r->progress_axis1,
+                            r->progress_axis2,
+                            b->heading.heading_rad,
+                            b->uncertainty_heading_rad,
+                            b->joint_to_sensor1_m.x,
+                            b->joint_to_sensor1_m.y,
+                            b->joint_to_sensor1_m.z,
+                            b->joint_to_sensor2_m.x,
+                            b->joint_to_sensor2_m.y,
+                            b->joint_to_sensor2_m.z,
+                            b->uncertainty1_m,
+                            b->uncertainty2_m,
+                            b->speed_m_s,
+                            b->gravity_off_m_s2,
+                            b->progress_heading,
+                            b->progress_center1,
+                            b->progress_center2,
+                            q.w,
+                            q.x,
+                            q.y,
+                            q.z};
 #elif defined(REPLAY_AUTO)
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {
@@ -464,6 +528,9 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
 #ifdef REPLAY_AUTO
 #define head hinge.head
 #define has_axes hinge.has_axes
+#elif defined(REPLAY_TWO_AXES)
+#define head ball.head
+#define has_axes ball.has_estimate
 #endif
 static uint64_t hash_result(uint64_t hash, const result_t *r)
 {
