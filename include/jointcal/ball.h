@@ -17,7 +17,7 @@
 ///     (void)jcal_ball_get(&hip, &result);
 ///     if (result.head.status == JCAL_READY) { ... jcal_ball_relative(&hip, pelvis, thigh) ... }
 ///
-/// Units and frames: types.h. Settings: ball_config.h. Cost: 1 KiB of state; docs/measurements/budget.md has the instructions.
+/// Units and frames: types.h. Settings: ball_config.h. Cost: 0.9 KiB of state; docs/measurements/budget.md has the instructions.
 /// Method: docs/METHOD_PEOPLE.md, section 10.
 #ifndef JCAL_BALL_H
 #define JCAL_BALL_H

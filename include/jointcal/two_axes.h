@@ -15,7 +15,7 @@
 ///     (void)jcal_two_axes_get(&elbow, &result);
 ///
 /// The angles: joint_angles.h with axis1, axis2 and the heading. For rigid mounts two_dof.h is sharper.
-/// Units and frames: types.h. Settings: two_axes_config.h. Cost: 1.5 KiB of state; docs/measurements/budget.md has the instructions.
+/// Units and frames: types.h. Settings: two_axes_config.h. Cost: 1.4 KiB of state; docs/measurements/budget.md has the instructions.
 /// Method: docs/METHOD_PEOPLE.md, section 11.
 #ifndef JCAL_TWO_AXES_H
 #define JCAL_TWO_AXES_H

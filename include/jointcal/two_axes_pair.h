@@ -10,7 +10,7 @@
 ///     (void)jcal_two_axes_pair_get(&elbow, &result);
 ///     const jcal_quat_t forearm_in_upper_arm = jcal_two_axes_pair_relative(&elbow);
 ///
-/// Cost: 3.5 KiB of state.
+/// Cost: 3.2 KiB of state.
 #ifndef JCAL_TWO_AXES_PAIR_H
 #define JCAL_TWO_AXES_PAIR_H
 

@@ -16,7 +16,7 @@
 ///     (void)jcal_two_dof_auto_get(&elbow, &result);                 whenever you like
 ///     if (result.ready_for != JCAL_FOR_NOTHING) { ... joint_angles.h, jcal_two_dof_auto_orientation ... }
 ///
-/// Units and frames: types.h. Cost: 7.7 KiB of state. Where one sensor serves two joints use sensor.h and two_axes.h themselves.
+/// Units and frames: types.h. Cost: 7.2 KiB of state. Where one sensor serves two joints use sensor.h and two_axes.h themselves.
 #ifndef JCAL_TWO_DOF_AUTO_H
 #define JCAL_TWO_DOF_AUTO_H
 

@@ -164,7 +164,8 @@ static const jcal_head_t *get(void *self)
 
 const report_words_t HINGE_WORDS = {
     .name = "Hinge",
-    .misfit = "no hinge explains the data: another kind of joint, or sensors that share none",
+    .misfit =
+        "no hinge explains the data: another kind of joint (of an elbow 'jointcal two-dof' finds both axes), or sensors that share none",
     .ambiguous = "other axes explain the data about equally",
     .move_joint = "bend and stretch the joint",
     .asked_for = "both axes",
