@@ -22,7 +22,7 @@ PROGRAM = TOOLS.parent / "build" / "host" / "jointcal"
 DESCRIPTION = """\
 Draw what jointcal says about a recording over time, or joint angles, as PNG, PDF or SVG.
 
-A calibration (--joint hinge, two-dof, center, chain): runs the program with --json, or reads
+A calibration (--joint hinge, two-dof, ball, center, chain): runs the program with --json, or reads
 lines that it wrote before (--jsonl). From top to bottom: the stated bounds, and the errors where
 the truth is known; status; what else is told: sign margin, heading offset and carrying angle,
 misfit, or distance of hip and knee; how the segments turn.
@@ -72,7 +72,7 @@ def make_parser() -> argparse.ArgumentParser:
                              "has them)")
     calibration.add_argument("--jsonl", type=Path, metavar="LINES", help="lines of jointcal JOINT RECORDING --json --every 0.1")
     calibration.add_argument("--engine", choices=["stream", "window"], default="stream", help="of the program (default stream)")
-    calibration.add_argument("--max-bound", type=float, metavar="X", help="limit for ready, deg or mm (default 3 deg, 10 mm)")
+    calibration.add_argument("--max-bound", type=float, metavar="X", help="limit for ready, deg or mm (default 3 deg, 10 mm; two axes of a person 15 deg, ball joint 60 mm)")
     calibration.add_argument("--program", type=Path, default=PROGRAM, help="default: build/host/jointcal")
 
     angles = parser.add_argument_group("angles")
@@ -116,7 +116,6 @@ def check_options(args: argparse.Namespace) -> None:
 
 def plot_calibration(args: argparse.Namespace, style: Style) -> None:
     joint = JOINTS[args.joint]
-    max_bound = args.max_bound or joint.max_bound
     truth = read_truth(args.truth, args.file, joint, args.reference_good_to)
     motion = read_motion(args.file, joint, args.from_s, args.until)
     if motion.clock.untimely:
@@ -125,13 +124,14 @@ def plot_calibration(args: argparse.Namespace, style: Style) -> None:
     if args.jsonl:
         place, lines = args.jsonl, stored_lines(args.jsonl)
     else:
-        options = ["--engine", args.engine, "--max-bound", f"{max_bound / joint.per_unit:g}"]
+        limit = [joint.limit_option, f"{args.max_bound / joint.per_unit:g}"] if args.max_bound else []
+        options = ["--engine", args.engine, *limit]
         place, lines = args.file, run_program(args.program, joint, args.file, motion.seconds, options)
     with closing(lines):
         told = Told(place, joint, truth, Clock(args.from_s, args.until), motion.clock.zero_s).read(lines)
     title = default_title(args.file.name, told) if args.title is None else args.title
     with style.context():
-        save(draw_calibration(told, motion, max_bound, title, style), args.out, style)
+        save(draw_calibration(told, motion, args.max_bound or told.max_bound, title, style), args.out, style)
 
 
 def names_of(text: str) -> list[str]:

@@ -115,6 +115,12 @@ class Told:
         self._untimed: dict[str, object] = {}  # a line from before the first row that was used
         self._rows: list[tuple[float, np.ndarray, np.ndarray, np.ndarray]] = []
 
+    @property
+    def max_bound(self) -> float:
+        """What bounds must be below for `ready` where nothing else was asked for: of the model that spoke last."""
+        people = self.joint.people_bound if self.last.get("model") == "functional" else None
+        return people or self.joint.max_bound
+
     def read(self, lines: Iterable[str]) -> Told:
         for number, text in enumerate(lines, 1):
             if text.strip():
