@@ -108,8 +108,7 @@ static void close(jcal_ball_t *self)
 /// Features began anew: the headings of before are not those of now.
 static void cut(jcal_ball_t *self)
 {
-    if ((self->tried < FIRST_TRIALS) &&
-        (self->sums.block_motion_s[1] > 0.0f)) { /* no heading is known yet to be merged with */
+    if (self->tried < FIRST_TRIALS) { /* no heading is known yet that any block could be merged with */
         jcal_clear(&self->sums, sizeof self->sums);
         self->tried = 0u;
         self->has_estimate = false;

@@ -397,7 +397,7 @@ class Ball:
     def cut(self) -> None:
         """The features began anew. Before there is an estimate no block has a heading that it could be merged with."""
         self.windows.parts = [Part(), Part()]
-        if not self.has_estimate and self.sums.blocks[1].motion_s > 0.0:
+        if not self.has_estimate:
             self.sums, self.past, self.point, self.motion_s = Sums(), Past(), Point(), 0.0
         else:
             self.close()
