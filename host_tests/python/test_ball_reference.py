@@ -285,7 +285,6 @@ class BallTest(unittest.TestCase):
         ball = br.Ball()
         for a, b in random_ticks(np.random.default_rng(11), 50):
             ball.add(a, b)
-            self.assertEqual(ball.verdict.reason in ("no-data", "no-motion"), ball.sums.motion_s < 3.0 or ball.verdict.reason == "no-motion")
         self.assertLess(ball.sums.motion_s, 3.0)
         self.assertEqual(ball.verdict.reason, "no-motion")
 
