@@ -208,7 +208,7 @@ class Derivatives(unittest.TestCase):
     def test_bounds_are_those_of_the_profile_of_the_cost(self):
         """Variance of a heading and of the worst direction of a lever: one over the curvature once everything else follows, by solving."""
         found, heading = br.bounds(self.case.sums, self.case.past, self.case.point)
-        numeric = self.case.second_differences()
+        numeric = self.case.second_differences() + np.diag([1.0] * 6 + [0.0] * 2)  # no lever is longer than a metre
 
         def variance(direction):
             """Of direction . x, with the least cost among all x that have it at 1."""
@@ -226,6 +226,23 @@ class Derivatives(unittest.TestCase):
             self.assertGreater(found[k], least)  # what errors of the regressors are worth comes on top
             self.assertLess(found[k] - least, 0.02)
 
+    def test_a_heading_is_known_where_the_centre_is_open_along_a_line(self):
+        """Rates about one line of each sensor leave the levers along it open; a heading hangs on the others only."""
+        rng = np.random.default_rng(15)
+        sums, point = br.Sums(), br.Point()
+        across = np.diag([1.0, 1.0, 0.0])
+        for a, b in random_ticks(rng, 60, noise=0.02):
+            along = a.lever[:, 2] * R1[2], b.lever[:, 2] * R2[2]
+            sums.add(a._replace(lever=a.lever @ across, velocity=a.velocity - along[0]),
+                     b._replace(lever=b.lever @ across, velocity=b.velocity - along[1]), TICK_S, TICK_S)
+        br.put_levers(sums, point)
+        levers, heading = br.bounds(sums, br.Past(), point)
+        self.assertLess(heading, 0.2)
+        self.assertTrue(np.all(levers == br.UNKNOWN_M))
+        full = br.information(sums, br.Past(), point)
+        keep = [0, 1, 3, 4, 6]
+        self.assertAlmostEqual(heading, 2.0 * np.sqrt(np.linalg.inv(full[np.ix_(keep, keep)])[4, 4]), delta=1e-2 * heading)
+
     def test_errors_of_the_regressors_are_worth_half_of_what_they_shorten_levers_by(self):
         rng = np.random.default_rng(7)
         sums, point = br.Sums(), br.Point()
@@ -235,7 +252,7 @@ class Derivatives(unittest.TestCase):
         with mock.patch.object(br, "RIDGE", 0.0):
             br.put_levers(sums, point)
         found, _ = br.bounds(sums, br.Past(), point)
-        covariance = np.linalg.inv(br.information(sums, br.Past(), point)[:7, :7])
+        covariance = np.linalg.inv(br.information(sums, br.Past(), point)[:7, :7] + np.diag([1.0] * 6 + [0.0]))
         for k, (truth, share) in enumerate(((R1, 0.17), (R2, 0.10))):
             part = slice(3 * k, 3 * k + 3)
             r, spread = point.r[part], 0.5 * np.sqrt(np.linalg.eigvalsh(covariance[part, part])[-1])
