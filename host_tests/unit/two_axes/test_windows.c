@@ -55,8 +55,8 @@ static void pose(const swing_t *s, double t, double turn1[9], double turn2[9])
 static jcal_tick_t tick_at(const swing_t *s, int which)
 {
     const double h = 1e-4;
-    double turns[3][9];
-    double ignored[9];
+    double turns[3][9] = {{0.0}};
+    double ignored[9] = {0.0};
     for (int k = 0; k < 3; ++k) {
         const double t = s->t + (k - 1) * h;
         pose(s, t, (which == 1) ? turns[k] : ignored, (which == 1) ? ignored : turns[k]);
