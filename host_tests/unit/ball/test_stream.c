@@ -258,6 +258,33 @@ static void a_gap_with_another_heading_is_survived(void)
         }
         TEST_ASSERT_EQUAL_INT(JCAL_READY, run_result(&run).head.status);
     }
+    run_for(&run,
+            12.0); /* the first blocks after the gap are closed, and one is merged: nothing of before pulls at them */
+    const jcal_ball_past_t *const past = &run.joint.past;
+    TEST_ASSERT_TRUE(past->known > 0.0f);
+    TEST_ASSERT_DOUBLE_WITHIN(
+        0.01, 0.0,
+        remainder(atan2((double)past->heading.im, (double)past->heading.re) - run.arm.heading, 2.0 * MOTION_PI));
+}
+
+/* Either sensor alone may begin anew. */
+static void a_gap_of_one_sensor_is_one_of_both(void)
+{
+    const hinge_t arm = arm_usual();
+    for (int which = 1; which <= 2; ++which) {
+        run_begin(&run, &arm, NULL);
+        run_for(&run, 13.0);
+        jcal_tick_t tick1;
+        jcal_tick_t tick2;
+        run_make(&run, &tick1, &tick2);
+        tick1.epoch += (which == 1) ? 1u : 0u;
+        tick2.epoch += (which == 2) ? 1u : 0u;
+        TEST_ASSERT_TRUE(run_result(&run).heading.known && run.joint.sums.block_motion_s[1] > 0.0f);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_ball_add(&run.joint, &tick1, &tick2));
+        TEST_ASSERT_FALSE(run_result(&run).heading.known);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, run.joint.sums.block_motion_s[0]);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, run.joint.sums.block_motion_s[1]);
+    }
 }
 
 /* Pieces too short for a heading, each with another one: none is merged before headings are known. */
@@ -269,6 +296,7 @@ static void gaps_before_the_first_estimate_leave_nothing_behind(void)
         for (int piece = 0; piece < 8; ++piece) {
             run.arm.heading = arm.heading + piece;
             run_for(&run, 0.4);
+            TEST_ASSERT_FALSE_MESSAGE(run.joint.has_estimate, "a piece is too short for any");
             run.epoch += 1u;
             TEST_ASSERT_FALSE(run.joint.merged);
         }
@@ -557,6 +585,16 @@ static void work_is_bounded(void)
         TEST_ASSERT_TRUE((double)run.slices <= 0.25 * (double)slices[n] * 30.0 + 8.0);
         TEST_ASSERT_TRUE(run.slices > 30u); /* a judgement a second takes several */
     }
+    for (int ready = 0; ready < 2; ++ready) { /* what a tick of 50 ms pays for */
+        jcal_tick_t tick1;
+        jcal_tick_t tick2;
+        run.joint.verdict.status = (uint8_t)((ready == 1) ? JCAL_READY : JCAL_COLLECTING);
+        run.joint.credit = 0.0f;
+        run_make(&run, &tick1, &tick2);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_ball_add(&run.joint, &tick1, &tick2));
+        TEST_ASSERT_EQUAL_FLOAT((ready == 1) ? 1.25f : 5.0f, run.joint.credit);
+        ++run.next;
+    }
     run_begin(&run, &arm, NULL);
     for (int k = 0; k < 100; ++k) { /* nobody works meanwhile */
         jcal_tick_t tick1;
@@ -637,6 +675,7 @@ int main(void)
     RUN_TEST(times_do_not_matter_but_for_their_order);
     RUN_TEST(ticks_that_are_refused_leave_no_trace);
     RUN_TEST(a_gap_with_another_heading_is_survived);
+    RUN_TEST(a_gap_of_one_sensor_is_one_of_both);
     RUN_TEST(gaps_before_the_first_estimate_leave_nothing_behind);
     RUN_TEST(a_slip_is_noticed_and_learnt);
     RUN_TEST(before_ready_there_is_no_slip);

@@ -133,13 +133,24 @@ static void signs_are_those_that_were_asked_for_and_stay(void)
 static void the_sign_is_not_kept_before_the_axis_is_known(void)
 {
     const hinge_t elbow = elbow_usual();
-    jcal_two_axes_config_t config = jcal_two_axes_config_default();
-    config.max_bound_rad = 0.01f; /* 2 deg are never below */
-    run_begin(&run, &elbow, &config);
-    run_for(&run, BEND, 20.0);
-    TEST_ASSERT_TRUE(run_result(&run).windows1 > 0u);
-    TEST_ASSERT_FALSE(run_result(&run).for_axis1);
-    TEST_ASSERT_EQUAL_INT(0, run.joint.windows.found[0].kept_sign);
+    for (int n = 0; n < 4; ++n) {
+        const float sign1 = (n % 2 == 0) ? 1.0f : -1.0f;
+        const float sign2 = (n < 2) ? 1.0f : -1.0f;
+        jcal_two_axes_config_t config = jcal_two_axes_config_default();
+        config.max_bound_rad = 0.01f; /* 2 deg are never below */
+        config.axis1_toward = jcal_vec3_scale(elbow_axis(&elbow, 1), sign1);
+        config.axis2_toward = jcal_vec3_scale(elbow_axis(&elbow, 2), sign2);
+        run_begin(&run, &elbow, &config);
+        run_for(&run, BEND, 15.0);
+        run_for(&run, TURN, 15.0);
+        const jcal_two_axes_result_t r = run_result(&run);
+        TEST_ASSERT_TRUE((r.windows1 > 0u) && (r.windows2 > 0u));
+        TEST_ASSERT_FALSE(r.for_axis1 || r.for_axis2);
+        TEST_ASSERT_TRUE(sign1 * jcal_vec3_dot(r.axis1, elbow_axis(&elbow, 1)) > 0.99f);
+        TEST_ASSERT_TRUE(sign2 * jcal_vec3_dot(r.axis2, elbow_axis(&elbow, 2)) > 0.99f);
+        TEST_ASSERT_EQUAL_INT(0, run.joint.windows.found[0].kept_sign);
+        TEST_ASSERT_EQUAL_INT(0, run.joint.windows.found[1].kept_sign);
+    }
 }
 
 /* The sensor on the upper arm is turned about the joint's centre, 50 deg: its lever is as before, so that the centre does not tell, but

@@ -266,28 +266,38 @@ static void what_a_window_must_show(void)
     TEST_ASSERT_EQUAL_INT(1, shown_by(&s));
 }
 
-/* A second line, so many times slower than the first within the same window; halves are alike. */
-static int with_a_second_line(double share)
+/* Ticks about two lines that take turns, the second with rates of a share of the first; halves are alike. The second eigenvalue over the
+   first is worked out from the rates. */
+static int with_a_second_line(double share, double *sideways)
 {
     swing_t s = swing_about(0.0, 1.0, 0.0);
+    double squares[2] = {0.0};
     reach(&s, 1.0, 0.0, 0.0);
     for (int k = 0; k < 2 * PART_TICKS; ++k) {
-        const bool is_second = (k % 2) == 1;
-        const double line[3] = {0.0, is_second ? 0.0 : 1.0, is_second ? 1.0 : 0.0};
+        const int which = k % 2;
+        const double line[3] = {0.0, (which == 1) ? 0.0 : 1.0, (which == 1) ? 1.0 : 0.0};
         memcpy(s.line, line, sizeof line);
-        s.amplitude = is_second ? 0.4 * sqrt(share) : 0.4;
+        s.amplitude = (which == 1) ? 0.4 * sqrt(share) : 0.4;
+        const double rate = s.amplitude * s.frequency * cos(s.frequency * s.t);
+        squares[which] += rate * rate / (1.0 + rate * rate / 4.0);
         (void)swing(&s, 1, straight);
     }
     const int out = windows.found[0].windows;
+    *sideways = squares[1] / squares[0];
     setUp();
     return out;
 }
 
-/* Shares of the squares; where they are fast they count up to a quarter less, so that the slower line counts up to a fifth more. */
 static void one_line_must_dominate(void)
 {
-    TEST_ASSERT_EQUAL_INT(1, with_a_second_line(0.095));
-    TEST_ASSERT_EQUAL_INT(0, with_a_second_line(0.125));
+    double below = 0.0;
+    double sideways = 0.0;
+    for (double share = 0.08; sideways <= 0.12; share += 5e-4) {
+        below = sideways;
+        const int found = with_a_second_line(share, &sideways);
+        TEST_ASSERT_EQUAL_INT(sideways <= 0.12, found);
+    }
+    TEST_ASSERT_TRUE((below > 0.115) && (sideways < 0.125));
 }
 
 static int with_halves_apart(double degrees)
@@ -353,7 +363,23 @@ static void windows_that_agree_are_one(void)
     /* two lines of the same weight are half of their angle off, which is a second eigenvalue of tan^2(5 deg) */
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, FLOOR_RAD + 0.5f * 0.1f + 0.5f * tanf(5.0f / 57.29578f),
                              windows.found[0].bound_rad);
-    context.heading_rad = 0.3f; /* the least that a heading may add stays */
+    /* of a line near (0, 1, -1) another component becomes the largest: its sense stays all the same */
+    setUp();
+    context.heading_rad = 0.2f;
+    window_about(-43.0);
+    const jcal_vec3_t before = windows.found[0].axis;
+    window_about(-50.0);
+    TEST_ASSERT_EQUAL_INT(2, windows.found[0].windows);
+    TEST_ASSERT_TRUE(jcal_vec3_dot(before, windows.found[0].axis) > 0.9f);
+}
+
+static void the_least_that_a_heading_may_add_stays(void)
+{
+    context.heading_rad = 0.2f;
+    window_about(0.0);
+    context.heading_rad = 0.1f;
+    window_about(10.0);
+    context.heading_rad = 0.3f;
     window_about(5.0);
     TEST_ASSERT_EQUAL_INT(3, windows.found[0].windows);
     TEST_ASSERT_EQUAL_FLOAT(0.1f, windows.found[0].heading_rad);
@@ -435,6 +461,7 @@ int main(void)
     RUN_TEST(both_halves_must_show_the_same_line);
     RUN_TEST(both_frames_are_asked);
     RUN_TEST(windows_that_agree_are_one);
+    RUN_TEST(the_least_that_a_heading_may_add_stays);
     RUN_TEST(two_windows_that_say_otherwise_are_believed);
     RUN_TEST(a_window_that_is_surer_is_believed_at_once);
     RUN_TEST(how_far_apart_is_otherwise);
