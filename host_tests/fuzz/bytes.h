@@ -3,6 +3,8 @@
 #ifndef FUZZ_BYTES_H
 #define FUZZ_BYTES_H
 
+#include "jointcal/head.h"
+#include "jointcal/tick.h"
 #include "jointcal/types.h"
 #include "jointcal/vec3.h"
 
@@ -71,6 +73,38 @@ static inline uint64_t step_of(const uint8_t *data, reading_t reading, unsigned 
     uint16_t step;
     memcpy(&step, data, sizeof step);
     return (reading == AS_SENSOR) ? least + step % 40000u : (uint64_t)(int64_t)(int16_t)step * 100u;
+}
+
+#define TICK_BYTES 138u /* 2 bytes of time step, 2 x (1 of epoch, 67 of values) */
+
+static inline jcal_tick_t tick_at(const uint8_t *data, reading_t reading, uint64_t t_us, float dt_s)
+{
+    jcal_tick_t out = {0};
+    out.t_us = t_us;
+    out.dt_s = dt_s;
+    out.epoch = data[0] / 250u;
+    const uint8_t *at = data + 1;
+    for (size_t k = 0; k < 9; k++) {
+        out.turn[k] = component(at + 2 * k, reading, 1.0f);
+        out.rate[k] = component(at + 18 + 2 * k, reading, 5.0f);
+        out.lever[k] = component(at + 36 + 2 * k, reading, 5.0f);
+    }
+    out.velocity = vector(at + 54, reading, 2.0f);
+    out.gyr = vector(at + 60, reading, 5.0f);
+    out.acc_level_m_s2 = 9.81f;
+    return out;
+}
+
+/* What every result begins with has words for what is missing, and none where nothing is. */
+static inline void require_words(const jcal_head_t *head)
+{
+    require(head->status >= JCAL_COLLECTING && head->status <= JCAL_MOVED);
+    require(jcal_calibration_string(head->status) != NULL);
+    const bool ready = head->status == JCAL_READY;
+    require(ready == (head->reason == JCAL_REASON_NONE) && ready == (jcal_reason_string(head->reason) == NULL));
+    require(ready == (head->weak == JCAL_WEAK_NONE) && ready == (jcal_weak_string(head->weak) == NULL));
+    require(ready == (head->hint == JCAL_HINT_NONE) && ready == (jcal_hint_string(head->hint) == NULL));
+    require((head->status == JCAL_AMBIGUOUS) == (head->reason == JCAL_REASON_SIGN_OPEN));
 }
 
 #endif /* FUZZ_BYTES_H */

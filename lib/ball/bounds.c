@@ -21,6 +21,9 @@
 #define LEVER_SHARE 0.5f
 #define SKIN1 0.17f
 #define SKIN2 0.10f
+/// What is known of each component of a lever beforehand, 1/m^2: none is much longer than a metre. Of a joint that bends about one line only
+/// the centre is open along it, and nothing else would be known of such a motion.
+#define LEVER_KNOWN 1.0f
 /// Square of the least length of the levers that errors of the regressors are spread over, m^2.
 #define LENGTH2_MIN 1e-6f
 
@@ -97,6 +100,9 @@ static void bound_heading(jcal_ball_t *self)
     float q[2u * JCAL_LEVER_UNKNOWNS];
     jcal_ball_information(&self->sums, &self->past, &self->point, v->factor, q, v->left);
     v->heading_rad = JCAL_BOUND_UNKNOWN_RAD;
+    for (size_t i = 0u; i < JCAL_LEVER_UNKNOWNS; ++i) {
+        v->factor[jcal_sym_at(i, i)] += LEVER_KNOWN;
+    }
     if (!jcal_chol6_factor(v->factor)) {
         v->left[0] = 0.0f; /* nothing of the kind is known */
         return;

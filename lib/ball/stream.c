@@ -8,9 +8,12 @@
 #include "ball/track.h"
 #include "jointcal/ball.h"
 #include "levers/ticks.h"
+#include "math/angle.h"
 #include "math/clear.h"
+#include "math/plane.h"
 #include "math/scalar.h"
 
+#include <math.h>
 #include <stddef.h>
 
 /// Motion before anything is estimated, s.
@@ -108,8 +111,7 @@ static void close(jcal_ball_t *self)
 /// Features began anew: the headings of before are not those of now.
 static void cut(jcal_ball_t *self)
 {
-    if ((self->tried < FIRST_TRIALS) &&
-        (self->sums.block_motion_s[1] > 0.0f)) { /* no heading is known yet to be merged with */
+    if (self->tried < FIRST_TRIALS) { /* no heading is known yet that any block could be merged with */
         jcal_clear(&self->sums, sizeof self->sums);
         self->tried = 0u;
         self->has_estimate = false;
@@ -147,19 +149,33 @@ jcal_status_t jcal_ball_add(jcal_ball_t *self, const jcal_tick_t *tick1, const j
     return JCAL_OK;
 }
 
-/// The trial is the estimate if it leaves less.
+/// True if the trial's heading is within the bound of the estimate's: the same for all that is known.
+static bool is_near(const jcal_ball_t *self)
+{
+    const jcal_plane_t off = jcal_plane_against(self->point.heading[0], self->trial.heading[0]);
+    return fabsf(jcal_atan2(off.im, off.re)) <= self->verdict.heading_rad;
+}
+
+/// The trial is the estimate if it leaves less. Once ready, one that is near goes on as if it were the same; any other begins anew.
 static void compare(jcal_ball_t *self)
 {
+    jcal_ball_verdict_t *const verdict = &self->verdict;
     const float ahead = READINGS_PER_S * self->sums.motion_s * jcal_ln(self->point.size / self->trial.size);
     if (!self->has_estimate || (ahead > AHEAD)) {
+        const bool was_ready = verdict->status == (uint8_t)JCAL_READY;
+        const bool goes_on = was_ready && is_near(self);
         self->point = self->trial;
         self->has_estimate = true;
-        self->verdict.agreed = 0u;
-        if (self->verdict.status == (uint8_t)JCAL_READY) {
-            self->verdict.status = (uint8_t)JCAL_COLLECTING;
-            self->verdict.reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+        if (!goes_on) {
+            verdict->agreed = 0u;
+            jcal_ball_track_begin(self);
         }
-        jcal_ball_track_begin(self);
+        if (was_ready && !goes_on) {
+            verdict->status = (uint8_t)JCAL_COLLECTING;
+            verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+            verdict->weak = (uint8_t)JCAL_WEAK_HEADING;
+            verdict->hint = (uint8_t)JCAL_HINT_MORE_DIRECTIONS;
+        }
     }
     self->turn = (uint8_t)((self->turn + 1u) % FIRST_TRIALS);
     self->tried = (uint8_t)((self->tried < UINT8_MAX) ? (self->tried + 1u) : UINT8_MAX);

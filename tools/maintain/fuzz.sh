@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: MIT
 # Builds and runs the fuzzers under address and undefined behaviour sanitizers: tools/maintain/fuzz.sh [RUNS [TARGET...]]
 #
-# RUNS executions of the reader (default 20000) and of one sensor, and a hundredth as many of push, joints and auto, each of which
-# pushes tens of samples into the engines of the hinge, of all other joints, or of a hinge of either kind and the functional joint alone; of the hub's frames as many as of the reader, and then `fuzz.sh frames` with ten
+# RUNS executions of the reader (default 20000) and of one sensor, and a hundredth as many of push, joints, auto and two_axes, each of which
+# pushes tens of samples into the engines of the hinge, of all other joints, or of a hinge of either kind and the functional joint alone, or of a
+# joint with two axes; of the hub's frames as many as of the reader, and then `fuzz.sh frames` with ten
 # times as many frames. Inputs that reach new code are kept in build/fuzz; host_tests/fuzz/corpus is where every run starts.
 # `fuzz.sh merge` copies what is worth keeping there.
 set -euo pipefail
@@ -38,7 +39,7 @@ fi
 runs=${1:-20000}
 shift || true
 targets=("$@")
-((${#targets[@]} > 0)) || targets=(reader push joints auto sensor frame)
+((${#targets[@]} > 0)) || targets=(reader push joints auto two_axes sensor frame)
 out=build/fuzz
 mkdir -p "$out"
 
@@ -61,7 +62,7 @@ for target in "${targets[@]}"; do
     fi
     count=$runs
     length=8192
-    if [[ $target == push || $target == joints || $target == auto ]]; then
+    if [[ $target == push || $target == joints || $target == auto || $target == two_axes ]]; then
         count=$((runs / 100))
         length=2604
     fi

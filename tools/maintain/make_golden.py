@@ -12,8 +12,9 @@ The numbers know nothing of the C code: samples come from the simulator, the cos
 the stream form and of OLS20 from jointcal_tools.ols20 and from the formulas of
 docs/METHOD.md section 2, written out below; those of the 2-DoF joint from
 jointcal_tools.lai22 and lai22_angles, those of the joint centre from jointcal_tools.ols17,
-those of what ties hip and knee from weighted least squares, written out below, and those
-of the functional joint from jointcal_tools.functional_reference.
+those of what ties hip and knee from weighted least squares, written out below, those
+of the functional joint from jointcal_tools.functional_reference, and those of ball joints
+and of axes from windows from jointcal_tools.ball_reference.
 """
 
 from __future__ import annotations
@@ -29,13 +30,14 @@ import numpy as np
 TOOLS = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOOLS / "python"))
 
+from jointcal_tools import ball_reference as ball  # noqa: E402
 from jointcal_tools import functional_reference as functional  # noqa: E402
 from jointcal_tools import functional_sensor, lai22, lai22_angles, ols17, ols20  # noqa: E402
 from jointcal_tools import quaternions as quat  # noqa: E402
 from jointcal_tools.lai22_signals import Samples  # noqa: E402
 from jointcal_tools.recordings import Recording  # noqa: E402
 from jointcal_tools.simulate import HingeSpec, simulate_hinge  # noqa: E402
-from jointcal_tools.simulate_two_dof import TwoDofSpec, simulate_two_dof  # noqa: E402
+from jointcal_tools.simulate_two_dof import TwoDofRecording, TwoDofSpec, simulate_two_dof  # noqa: E402
 
 GOLDEN = TOOLS.parent / "host_tests" / "golden"
 SEED = 42
@@ -45,6 +47,10 @@ TWO_DOF_SAMPLES = 30
 CENTER_SAMPLES, CENTER_SHOWN = 250, 12
 CENTER_RATE_HZ = 50.0
 FUNCTIONAL_S, FUNCTIONAL_STEP, FUNCTIONAL_POINTS, FUNCTIONAL_POSES = 18.0, 6, 4, 8
+BALL_S, BALL_EARLY, BALL_TRACKED = 18.0, 14, 20  # s; ticks of the early sums; ticks that the heading of the moment is followed over
+BALL_POINTS = (2, 3)  # with early and with all sums
+WINDOW_STEP, WINDOW_PARTS = 3, 6
+WINDOW_HEADING_BOUND = 0.15
 CHAIN_STATES = 18
 CHAIN_OBSERVED = 3
 SAME_BIAS_M_S2 = 0.01  # by how much one accelerometer may differ from itself
@@ -426,19 +432,23 @@ class FunctionalCase(NamedTuple):
     truth: functional.Point
 
 
-def functional_ticks() -> tuple[list[tuple[functional_sensor.Tick, functional_sensor.Tick]], Recording]:
-    """Every sixth tick only, as if sensors had fewer: less to store, and sums do not mind."""
-    rec = simulate_hinge(HingeSpec(motions=(("rest", 1.0), ("7", FUNCTIONAL_S)), rate_hz=RATE_HZ, seed=SEED, soft_tissue_deg=0.5,
-                                   acc_bias=0.2, gyr_bias_deg_s=0.5))
+def sparse_ticks(rec: Recording, step: int) -> list[tuple[functional_sensor.Tick, functional_sensor.Tick]]:
+    """After a second of rest every so many ticks one only, as if sensors had fewer: less to store, and sums do not mind."""
     sensors = []
     for gyr, acc, drift_rad_s in ((rec.gyr1, rec.acc1, 0.0), (rec.gyr2, rec.acc2, 0.01)):
         ticks = functional_sensor.features(rec.t_s, functional_sensor.orientation(rec.t_s, gyr, acc), gyr, acc)
-        ticks = ticks[round(1.0 / ticks[0].dt_s)::FUNCTIONAL_STEP]
+        ticks = ticks[round(1.0 / ticks[0].dt_s)::step]
         rz = [functional.about_z(complex(np.exp(1j * (0.7 + drift_rad_s * tick.t_s)))) for tick in ticks]
-        sensors.append([functional_sensor.Tick(tick.t_s, float(float32(FUNCTIONAL_STEP * tick.dt_s)), 1, *map(float32, (
+        sensors.append([functional_sensor.Tick(tick.t_s, float(float32(step * tick.dt_s)), 1, *map(float32, (
             z @ tick.turn, z @ tick.rate, z @ tick.lever, z @ tick.velocity, tick.gyr)), tick.acc_level)
             for tick, z in zip(ticks, rz, strict=True)])
-    return list(zip(*sensors, strict=True)), rec
+    return list(zip(*sensors, strict=True))
+
+
+def functional_ticks() -> tuple[list[tuple[functional_sensor.Tick, functional_sensor.Tick]], Recording]:
+    rec = simulate_hinge(HingeSpec(motions=(("rest", 1.0), ("7", FUNCTIONAL_S)), rate_hz=RATE_HZ, seed=SEED, soft_tissue_deg=0.5,
+                                   acc_bias=0.2, gyr_bias_deg_s=0.5))
+    return sparse_ticks(rec, FUNCTIONAL_STEP), rec
 
 
 def leaning_turn(rng: np.random.Generator, heading: complex) -> np.ndarray:
@@ -592,8 +602,228 @@ def functional_header() -> str:
 """
 
 
+class BallMoment(NamedTuple):
+    """Sums of some ticks, and the points that are looked at with them."""
+
+    sums: ball.Sums
+    points: list[ball.Point]
+    pasts: list[ball.Past]
+
+
+def true_heading(rec: TwoDofRecording, pair: tuple[functional_sensor.Tick, functional_sensor.Tick]) -> float:
+    """Level frame 2 to level frame 1, rad: what makes the pair's orientations stand to each other as the segments do."""
+    k = int(np.argmin(np.abs(rec.t_s - pair[0].t_s)))
+    one, two = (quat.matrices(q[k][None])[0] for q in (rec.q1, rec.q2))
+    delta = complex(np.exp(1j * rec.delta[k]))
+    z = pair[0].turn @ one.T @ functional.about_z(delta) @ two @ pair[1].turn.T
+    return float(np.arctan2(z[1, 0] - z[0, 1], z[0, 0] + z[1, 1]))
+
+
+def float32_heading(angle: float) -> complex:
+    return complex(*float32([np.cos(angle), np.sin(angle)]))
+
+
+def ball_case(rng: np.random.Generator) -> tuple[list, np.ndarray, np.ndarray, list[BallMoment]]:
+    """Ticks of a lively ball joint whose second level frame drifts, their weights, where blocks were closed, and two moments."""
+    rec = simulate_two_dof(TwoDofSpec(motions=(("rest", 1.0), ("three_dof", BALL_S)), rate_hz=RATE_HZ, seed=SEED, soft_tissue_deg=0.5,
+                                      acc_bias=0.1, gyr_bias_deg_s=0.3, lever_m=(0.15, 0.3)))
+    ticks = sparse_ticks(rec, FUNCTIONAL_STEP)
+    sums, weights, closes, moments = ball.Sums(), [], [], []
+    for number, (tick1, tick2) in enumerate(ticks, 1):
+        rate2 = float(tick1.gyr @ tick1.gyr + tick2.gyr @ tick2.gyr)
+        motion_s, spin, _ = map(float, float32(functional.weights_of(tick1.dt_s, rate2)))
+        weights.append((motion_s, spin))
+        sums.add(tick1, tick2, motion_s, spin)
+        if sums.is_full:
+            heading = float32_heading(rng.uniform(-3.0, 3.0))
+            closes.append([number, heading.real, heading.imag])
+            sums.old = sums.old + (heading * sums.blocks[1].lever).real
+            sums.blocks = [ball.Block(), sums.blocks[0]]
+        if number in (BALL_EARLY, len(ticks)):
+            count = BALL_POINTS[len(moments)]
+            points = [ball_point(rng, sums, true_heading(rec, (tick1, tick2))) for _ in range(count)]
+            pasts = [ball.Past(float32_heading(rng.uniform(-3.0, 3.0)), float(float32(rng.uniform(100.0, 2000.0)))) for _ in range(count)]
+            moments.append(BallMoment(ball_copy(sums), points, pasts))
+    assert len(closes) == 3 and closes[0][0] > BALL_EARLY
+    return ticks, np.array(weights), np.array(closes), moments
+
+
+def ball_copy(sums: ball.Sums) -> ball.Sums:
+    out = ball.Sums()
+    for name, value in vars(sums).items():
+        if name != "blocks":
+            setattr(out, name, value + 0.0)
+    out.blocks = [ball.Block(b.lever.copy(), b.motion_s, b.time_s) for b in sums.blocks]
+    return out
+
+
+def ball_point(rng: np.random.Generator, sums: ball.Sums, about: float) -> ball.Point:
+    """Headings that are the best but for some degrees, with the levers and sizes that go with them, in float32."""
+    point = ball.Point(heading=[complex(np.exp(1j * about))] * 2)
+    for _ in range(20):
+        ball.put_levers(sums, point)
+        ball.put_headings(sums, ball.Past(), point)
+    point.heading = [float32_heading(np.angle(h) + 0.1 * rng.standard_normal()) for h in point.heading]
+    return point
+
+
+def ball_sums_row(sums: ball.Sums) -> np.ndarray:
+    blocks = [part for b in sums.blocks for part in (b.lever.real.ravel(), b.lever.imag.ravel())]
+    return np.concatenate([[sums.motion_s, sums.energy1, sums.energy2, *(b.motion_s for b in sums.blocks)], sums.along.ravel(),
+                           packed(sums.lever1), packed(sums.lever2), sums.up.ravel(), sums.old.ravel(), *blocks])
+
+
+def ball_rows(sums: ball.Sums, past: ball.Past, point: ball.Point) -> dict[str, np.ndarray]:
+    """What each step makes of a point."""
+    rows = {"cross": sums.cross(point.heading).ravel()}
+    ball.put_levers(sums, point)
+    rows["levers"] = np.r_[point.r, point.lack, point.speed2, point.size]
+    rows["conditions"] = np.r_[np.linalg.cond(sums.normal(sums.cross(point.heading))[0]), 0.0]
+    point.r, point.size, point.lack = float32(point.r), float(float32(point.size)), float(float32(point.lack))
+    full = ball.information(sums, past, point)
+    rows["information"] = np.concatenate([packed(full[:6, :6]), full[:6, 6], full[:6, 7], packed(full[6:, 6:])])
+    size = 8 if sums.blocks[1].motion_s > 0.0 else 7
+    known = full[:size, :size] + ball.LEVER_KNOWN * np.diag(np.arange(size) < 6)
+    rows["conditions"][1] = np.linalg.cond(known)
+    left = np.eye(2)
+    left[: size - 6, : size - 6] = np.linalg.inv(np.linalg.inv(known)[6:, 6:])
+    rows["left"] = packed(left)
+    levers, heading = ball.bounds(sums, past, point)
+    assert max(levers) < 1.0 and heading < 0.5
+    rows["bounds"] = np.r_[heading, levers]
+    joint = ball.Ball()
+    joint.sums, joint.past, joint.point = ball_copy(sums), past, ball.Point(point.r, list(point.heading), point.size, point.lack)
+    joint.close()
+    rows["pasts"] = np.r_[past.pull, joint.past.known]
+    settled = ball.Point(point.r, list(point.heading), point.size)
+    ball.put_headings(sums, past, settled)
+    rows["headings"] = np.ravel([[h.real, h.imag] for h in settled.heading])
+    return rows
+
+
+BALL_TABLES = {
+    "cross": "X (4 x 4).",
+    "levers": "r1, r2, m, what they leave, (m/s)^2 s, mean square of both sides and size, (m/s)^2.",
+    "conditions": "Condition of the normal equations without their ridge, and of the information.",
+    "headings": "With these levers and this size: headings (re, im) of both blocks after a slice of a round.",
+    "information": "There, with the headings of before: about both levers (6 x 6, packed), their coupling to both headings (2 x 6), about the "
+                   "headings (2 x 2, packed).",
+    "left": "What is left of the last once the levers have taken their share; 1 for a block that is empty.",
+    "bounds": "Bounds of the heading, rad, and of both levers, m.",
+    "pasts": "What the past is worth one block later, and what is known once the closed block is merged, 1/rad^2.",
+}
+
+
+def ball_track(ticks: list, weights: np.ndarray, point: ball.Point) -> np.ndarray:
+    """Heading of the moment after the last ticks, as one sum: all of them at once, each as old as it is; and what they leave, smoothed."""
+    ticks, motion = ticks[-BALL_TRACKED:], weights[-BALL_TRACKED:, 0]
+    v1 = np.array([a.velocity - a.lever @ point.r[:3] for a, _ in ticks])
+    v2 = np.array([b.velocity - b.lever @ point.r[3:] for _, b in ticks])
+    level1, level2 = v1[:, 0] + 1j * v1[:, 1], v2[:, 0] + 1j * v2[:, 1]
+    fade = 1.0 / (1.0 + ticks[0][0].dt_s / 10.0)
+    recent = 0.0
+    for k in range(BALL_TRACKED):
+        z = np.sum(motion[: k + 1] * fade ** np.arange(k, -1, -1.0) * np.conj(level2[: k + 1]) * level1[: k + 1])
+        heading = z / abs(z)
+        left = abs(level1[k] - heading * level2[k]) ** 2 + (v1[k, 2] - v2[k, 2]) ** 2
+        recent += motion[k] / (motion[k] + 1.5) * (min(left / (3.0 * point.size), 50.0) - recent)
+    return np.array([heading.real, heading.imag, recent])
+
+
+def turned(tick: functional_sensor.Tick, heading: complex) -> functional_sensor.Tick:
+    """As if its level frame had another heading."""
+    return tick._replace(turn=float32(functional.about_z(heading) @ tick.turn))
+
+
+def window_ticks() -> tuple[list, np.ndarray, complex]:
+    """Bending, turning, bending, each of two parts; levers of an elbow whose axes they are, and a heading."""
+    ticks, point = [], np.zeros(6)
+    for number, kind in enumerate(("hinge", "pronation", "hinge")):
+        rec = simulate_two_dof(TwoDofSpec(motions=(("rest", 1.0), (kind, 8.0)), rate_hz=RATE_HZ, seed=SEED, soft_tissue_deg=1.0, speed=2.0))
+        parts = sparse_ticks(rec, WINDOW_STEP)
+        each = int(np.ceil(ball.PART_S / parts[0][0].dt_s))
+        begin = float32_heading(true_heading(rec, parts[4 * number]))
+        ticks += [(a, turned(b, begin)) for a, b in parts[4 * number: 4 * number + 2 * each]]
+        across = np.cross(rec.axis1, [-0.3, -0.9, -0.1])
+        point = float32(np.r_[0.2 * across / np.linalg.norm(across), 0.25 * rec.axis2])
+    heading = float32_heading(0.6)
+    return [(a, turned(b, np.conj(heading))) for a, b in ticks], point, heading
+
+
+def window_rows(ticks: list, r: np.ndarray, heading: complex) -> tuple[np.ndarray, np.ndarray]:
+    """Each part as it is closed, and both axes after it."""
+    windows, parts, found = ball.Windows(), [], []
+    for tick1, tick2 in ticks:
+        if not windows.add(tick1, tick2, heading):
+            continue
+        part = windows.parts[0]
+        parts.append(np.concatenate([packed(part.seen1), packed(part.seen2), part.mean.ravel(), [part.carried2, part.motion_s, part.time_s]]))
+        windows.close(ball.Point(r), WINDOW_HEADING_BOUND, True)
+        found.append(np.concatenate([np.r_[a.windows, a.bound, a.heading_bound if a.windows else 0.0, a.direction if a.windows else np.zeros(3)]
+                                     for a in windows.kept]))
+    assert len(parts) == WINDOW_PARTS and [found[-1][0], found[-1][6]] == [2.0, 1.0]
+    return np.array(parts), np.array(found)
+
+
+def ball_header() -> str:
+    rng = np.random.default_rng(SEED)
+    ticks, weights, closes, moments = ball_case(rng)
+    table_rows = [(number, point, past) for number, moment in enumerate(moments) for point, past in zip(moment.points, moment.pasts, strict=True)]
+    points = np.array([[number, *np.ravel([[h.real, h.imag] for h in point.heading]), past.heading.real, past.heading.imag, past.known]
+                       for number, point, past in table_rows])
+    rows = [ball_rows(moments[number].sums, past, point) for number, point, past in table_rows]
+    tick_rows = np.array([np.concatenate([*(np.r_[t.turn.ravel(), t.lever.ravel(), t.velocity, t.gyr] for t in pair), w])
+                          for pair, w in zip(ticks, weights, strict=True)])
+    tracked = ball_track(ticks, weights, table_rows[-1][1])
+    w_ticks, r, heading = window_ticks()
+    parts, found = window_rows(w_ticks, r, heading)
+    tables = [
+        table("golden_ticks", "Of sensor 1, then of sensor 2: turn, lever (3 x 3 each), velocity, gyr; then the weights: motion, s, spin.",
+              tick_rows, "float"),
+        table("golden_closes", "A block is closed after so many ticks; heading (re, im) of the one that is merged.", closes, "float"),
+        table("golden_sums", "After the early ticks and after all: motion, energies, motion of both blocks; along, S11, S22 (packed), Sv, old, "
+              "Sc of both blocks (re, im).", np.array([ball_sums_row(moment.sums) for moment in moments])),
+        table("golden_stiffness", "Of both.", np.array([ball.stiffness(moment.sums) for moment in moments])),
+        table("golden_points", "With which sums; headings (re, im) of both blocks; heading of the past and what is known of it.", points, "float"),
+        *(table(f"golden_{name}", comment, np.array([row[name] for row in rows])) for name, comment in BALL_TABLES.items()),
+        table("golden_track", "With the levers and the size of the last point, after the last ticks: heading of the moment, and what is left.",
+              tracked),
+        table("golden_window_ticks", "Of sensor 1, then of sensor 2: turn, gyr.",
+              np.array([np.concatenate([np.r_[t.turn.ravel(), t.gyr] for t in pair]) for pair in w_ticks]), "float"),
+        table("golden_window_point", "Levers of all windows, and the heading.", np.r_[r, heading.real, heading.imag], "float"),
+        table("golden_parts", "Each part: relative rate in frame 1 and 2 (packed), mean of R1' Rz R2 times seconds, carried, motion, time.", parts),
+        table("golden_found", "After each part, of bending and of turning: windows, bound, what the heading may add, rad, axis.", found),
+    ]
+    return f"""/* SPDX-License-Identifier: MIT */
+/// @file
+/// Golden vectors of ball joints and of axes from windows in float64, generated: do not edit. Compared by unit/ball/test_golden.c and
+/// unit/two_axes/test_golden.c.
+///
+/// Tables from golden_cross to golden_pasts have one row for each of golden_points.
+/// Generator tools/maintain/make_golden.py, seed {SEED}, numpy {np.__version__}.
+#ifndef GOLDEN_BALL_H
+#define GOLDEN_BALL_H
+
+/* clang-format off */
+#define GOLDEN_TICKS {len(ticks)}
+#define GOLDEN_TICK_S {ticks[0][0].dt_s:.2f}f
+#define GOLDEN_EARLY {BALL_EARLY}
+#define GOLDEN_TRACKED {BALL_TRACKED}
+#define GOLDEN_CLOSES {len(closes)}
+#define GOLDEN_POINTS {len(points)}
+#define GOLDEN_WINDOW_TICKS {len(w_ticks)}
+#define GOLDEN_WINDOW_TICK_S {w_ticks[0][0].dt_s:.2f}f
+#define GOLDEN_WINDOW_HEADING_BOUND {WINDOW_HEADING_BOUND:.2f}f
+#define GOLDEN_PARTS {len(parts)}
+
+""" + "\n".join(tables) + """/* clang-format on */
+
+#endif /* GOLDEN_BALL_H */
+"""
+
+
 HEADERS = {"hinge.h": hinge_header, "two_dof.h": two_dof_header, "center.h": center_header, "chain.h": chain_header,
-           "functional.h": functional_header}
+           "functional.h": functional_header, "ball.h": ball_header}
 
 
 def differences(old: str, new: str) -> list[str]:

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// A made-up hinge that moves in space, in double precision, and what two exact sensors on it make of it: ticks, and readings.
+/// A made-up hinge that moves in space, in double precision, and what two exact sensors on it make of it: ticks, and readings. With `twist`
+/// or `side` it is a joint of two or three axes.
 ///
 /// Poses are sums of sines; rates and accelerations are five-point differences of them. Ticks need no filter: with B = Q = R [w]x and the
 /// sensor's own velocity U, U - B r is the velocity of the joint's centre, Q j is how the axis moves, and both are the same for both
@@ -24,6 +25,9 @@ typedef struct {
     double heading, drift_rad_s;  ///< L2 to L1 at time 0, and how it drifts.
     double pace;                  ///< Factor of all frequencies.
     double swing;                 ///< Factor of the joint's angle; 0: it does not bend.
+    double bent;                  ///< Angle about which it bends, rad.
+    double twist;                 ///< Factor of turning about x of the second segment; 0: a hinge.
+    double side;                  ///< Factor of leaning about z of the second segment; 0: no ball joint.
     double lift;                  ///< Factor of the centre's motion.
     double turn;                  ///< Factor of the first segment's turns.
     double rest_s;                ///< So long nothing moves; the motion begins smoothly.
@@ -63,7 +67,19 @@ static inline double hinge_phase(const hinge_t *h, double t)
 static inline double hinge_angle(const hinge_t *h, double t)
 {
     const double p = hinge_phase(h, t);
-    return h->swing * (0.7 * sin(2.3 * p) + 0.4 * sin(3.7 * p + 0.5));
+    return h->bent + h->swing * (0.7 * sin(2.3 * p) + 0.4 * sin(3.7 * p + 0.5));
+}
+
+/// What a joint that is no hinge turns by after it has bent: about z, then about x of the second segment.
+static inline void hinge_turn_more(const hinge_t *h, double p, double turn[9])
+{
+    const double more[2][3] = {{0.0, 0.0, h->side * 0.5 * sin(2.9 * p + 1.3)},
+                               {h->twist * (0.6 * sin(2.7 * p + 0.4) + 0.3 * sin(4.1 * p)), 0.0, 0.0}};
+    double step[9];
+    for (int i = 0; i < 2; ++i) {
+        mat_turn(more[i], step);
+        mat_mul(turn, step, turn);
+    }
 }
 
 /// Poses of both sensors, to level frame 1, and the joint's centre.
@@ -83,6 +99,7 @@ static inline void hinge_pose(const hinge_t *h, double t, double turn1[9], doubl
     const double bend[3] = {0.0, hinge_angle(h, t), 0.0};
     mat_turn(bend, step);
     mat_mul(segment, step, turn2);
+    hinge_turn_more(h, p, turn2);
     const double rock[3] = {h->skin_rad * sin(6.1 * p), h->skin_rad * sin(6.7 * p + 1.0),
                             h->skin_rad * sin(7.1 * p + 2.0)};
     mat_turn(rock, step);

@@ -40,6 +40,7 @@ UNKNOWN_M, UNKNOWN = 10.0, np.pi / 2.0
 LEVER_FLOOR_M, LEVER_SHARE = 0.003, 0.5
 SKIN = (0.17, 0.10)  # share of a lever that no IMU can see: skin that goes along with its own segment, proximal, distal
 HEADING_SHARE = 2.0
+LEVER_KNOWN = 1.0  # 1/m^2, of each component of a lever beforehand
 
 AGREED_MIN = 3
 GRAVITY_OFF_MAX, MOTION_MIN_S, LACK_MAX, STIFFNESS_MIN, SPEED_NOISE2 = 0.6, 3.0, 0.05, 0.07, 2e-4
@@ -189,7 +190,7 @@ def information(sums: Sums, past: Past, point: Point) -> np.ndarray:
 
 def bounds(sums: Sums, past: Past, point: Point) -> tuple[np.ndarray, float]:
     """(2,) 95 % bounds of the levers, m, and of the heading of the open block, rad."""
-    full = information(sums, past, point)
+    full = information(sums, past, point) + LEVER_KNOWN * np.diag([1.0] * 6 + [0.0] * 2)
     has_closed = sums.blocks[1].motion_s > 0.0
     full = full if has_closed else np.delete(np.delete(full, 7, 0), 7, 1)
     if np.linalg.eigvalsh(full)[0] <= 0.0:
@@ -397,7 +398,7 @@ class Ball:
     def cut(self) -> None:
         """The features began anew. Before there is an estimate no block has a heading that it could be merged with."""
         self.windows.parts = [Part(), Part()]
-        if not self.has_estimate and self.sums.blocks[1].motion_s > 0.0:
+        if not self.has_estimate:
             self.sums, self.past, self.point, self.motion_s = Sums(), Past(), Point(), 0.0
         else:
             self.close()
