@@ -19,8 +19,6 @@
 #define HEADING_SHARE 2.0f
 #define LEVER_FLOOR_M 0.003f
 #define LEVER_SHARE 0.5f
-#define SKIN1 0.17f
-#define SKIN2 0.10f
 /// Square of the least length of the levers that errors of the regressors are spread over, m^2.
 #define LENGTH2_MIN 1e-6f
 
@@ -170,8 +168,10 @@ static void bound_levers(jcal_ball_t *self)
     jcal_chol6_solve(less, longer);
     const jcal_vec3_t by1 = {longer[0] - g[0], longer[1] - g[1], longer[2] - g[2]};
     const jcal_vec3_t by2 = {longer[3] - g[3], longer[4] - g[4], longer[5] - g[5]};
-    const float bound1 = LEVER_FLOOR_M + v->spread1_m + jcal_vec3_norm(by1) + (SKIN1 * jcal_vec3_norm(point->r1));
-    const float bound2 = LEVER_FLOOR_M + v->spread2_m + jcal_vec3_norm(by2) + (SKIN2 * jcal_vec3_norm(point->r2));
+    const float bound1 =
+        LEVER_FLOOR_M + v->spread1_m + jcal_vec3_norm(by1) + (JCAL_BALL_SKIN1 * jcal_vec3_norm(point->r1));
+    const float bound2 =
+        LEVER_FLOOR_M + v->spread2_m + jcal_vec3_norm(by2) + (JCAL_BALL_SKIN2 * jcal_vec3_norm(point->r2));
     v->bound1_m = jcal_min(bound1, JCAL_BOUND_UNKNOWN_M);
     v->bound2_m = jcal_min(bound2, JCAL_BOUND_UNKNOWN_M);
 }

@@ -11,6 +11,10 @@
 
 #include "jointcal/private/ball/stream.h"
 
+/// Shares of the proximal and of the distal lever that skin may hide by going along with its segment.
+#define JCAL_BALL_SKIN1 0.17f
+#define JCAL_BALL_SKIN2 0.10f
+
 /// Slices: the heading's bound; both levers' covariances; what errors of the regressors are worth, and the levers' bounds.
 #define JCAL_BALL_BOUND_SLICES 3u
 
