@@ -180,6 +180,8 @@ static void a_known_length_takes_out_a_common_factor(void)
     run(&m, 0.0, RUN_S);
     leg.joint[0].point.r2 = jcal_vec3_scale(leg.joint[0].point.r2, 1.11f);
     leg.joint[1].point.r1 = jcal_vec3_scale(leg.joint[1].point.r1, 1.11f);
+    leg.joint[0].verdict.bound2_m *= 1.11f;
+    leg.joint[1].verdict.bound1_m *= 1.11f;
     const jcal_leg_result_t r = result();
     for (int i = 1; i <= 2; ++i) {
         const double left = 0.05 * (double)jcal_vec3_norm(r.place_m[i]);
@@ -225,6 +227,25 @@ static void a_length_that_is_not_excluded_yet_asks_for_more_motion(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, r.head.reason);
     TEST_ASSERT_TRUE(r.head.hint == JCAL_HINT_MOVE_SEGMENT1 || r.head.hint == JCAL_HINT_MOVE_SEGMENT2);
     TEST_ASSERT_FALSE(r.known[JCAL_CHAIN_HIP_TO_THIGH]);
+}
+
+/* What hardly turns says little of where it sits, and never with a bound that does not hold; the others are known all the same. */
+static void a_pelvis_that_hardly_turns_never_has_a_bound_that_is_too_small(void)
+{
+    const double turns_rad[] = {0.005, 0.01, 0.02, 0.05, 0.1, 0.2};
+    for (size_t n = 0u; n < sizeof turns_rad / sizeof turns_rad[0]; ++n) {
+        for (int seed = 0; seed < SEEDS; ++seed) {
+            chain_motion_t m = leg_lively(seed);
+            m.hip.base = turns_rad[n];
+            setUp();
+            run(&m, 0.0, RUN_S);
+            const jcal_leg_result_t r = result();
+            TEST_ASSERT_TRUE(error_of(&m, &r, JCAL_CHAIN_HIP_TO_PELVIS) < (double)r.uncertainty_m[0]);
+            for (int i = 1; i < JCAL_CHAIN_PLACES; ++i) {
+                assert_true_without_skin(&m, &r, i);
+            }
+        }
+    }
 }
 
 /* What does not turn says nothing of where it sits. */
@@ -543,6 +564,7 @@ int main(void)
     RUN_TEST(a_known_length_takes_out_a_common_factor);
     RUN_TEST(a_length_that_cannot_be_leaves_the_thigh_unknown);
     RUN_TEST(a_length_that_is_not_excluded_yet_asks_for_more_motion);
+    RUN_TEST(a_pelvis_that_hardly_turns_never_has_a_bound_that_is_too_small);
     RUN_TEST(a_pelvis_at_rest_leaves_its_own_vector_open);
     RUN_TEST(no_motion_is_asked_for_that_would_not_help);
     RUN_TEST(without_motion_nothing_is_known);
