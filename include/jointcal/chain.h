@@ -37,6 +37,7 @@ typedef struct {
     float segment_length_m;                  ///< Distance of hip and knee as estimated.
     float uncertainty_segment_m;             ///< 95 % bound of that.
     jcal_calibration_t joint_status[2];      ///< Of hip and knee, each by itself.
+    float misfit;                            ///< The larger of both joints' (center.h): on a person 0.2 and more.
 } jcal_chain_result_t;
 
 /// Prepares an estimator; whatever `self` held before is lost.

@@ -10,6 +10,9 @@
 
 #include <math.h>
 
+/* Misfit of the rigid chain from which on the segments are a person's: recordings of rigs leave at most 0.05, of people 0.2 and more. */
+#define PERSON_MISFIT 0.1f
+
 /* ---- Options ---- */
 
 enum { KEY_METHOD = OPTION_OWN, KEY_SMOOTHING, KEY_THIGH_LENGTH, KEY_CALIBRATION };
@@ -179,12 +182,6 @@ static told_t tell_functional(const jcal_leg_result_t *leg)
     return told;
 }
 
-/* The bounds of a model mean something only if nothing but their size speaks against it. */
-static bool counts(const told_t *told)
-{
-    return told->head.reason == JCAL_REASON_NONE || told->head.reason == JCAL_REASON_UNCERTAIN;
-}
-
 /* The largest of the four bounds, and their sum. */
 static void measure(const told_t *told, bool sound, float *largest, float *sum)
 {
@@ -197,17 +194,20 @@ static void measure(const told_t *told, bool sound, float *largest, float *sum)
     }
 }
 
-/* True if the functional model is the one to speak. The rigid one is exact where it is ready. Else the model that knows all four vectors
-   better; where neither knows all, the one that knows the others. A joint that the functional model does not believe in has no bounds
-   there, so its reason need not be asked. */
-static bool functional_speaks(const told_t *rigid, const told_t *functional)
+/* True if the functional model is the one to speak. The rigid one is exact where it is ready. On a person its levers shrink and its bounds
+   do not hold: there it is not believed. Else the model speaks that knows all four vectors better; where neither knows all, the one that
+   knows the others. A model against which more speaks than the size of its bounds has none: the functional one tells none, of the rigid
+   one the reason is asked. */
+static bool functional_speaks(const told_t *rigid, float misfit, const told_t *functional)
 {
+    const bool is_person = misfit > PERSON_MISFIT;
     if (rigid->head.status == JCAL_READY || functional->head.status == JCAL_READY) {
-        return rigid->head.status != JCAL_READY;
+        return is_person || rigid->head.status != JCAL_READY;
     }
+    const bool sound = !is_person && rigid->head.reason == JCAL_REASON_UNCERTAIN;
     float largest[2];
     float sum[2];
-    measure(rigid, counts(rigid), &largest[0], &sum[0]);
+    measure(rigid, sound, &largest[0], &sum[0]);
     measure(functional, true, &largest[1], &sum[1]);
     return largest[1] < largest[0] || (largest[1] == largest[0] && sum[1] < sum[0]);
 }
@@ -226,7 +226,7 @@ static const jcal_head_t *get(void *self)
     (void)jcal_leg_get(&run->leg, &leg);
     const told_t rigid = tell_rigid(&chain);
     const told_t functional = tell_functional(&leg);
-    run->told = functional_speaks(&rigid, &functional) ? functional : rigid;
+    run->told = functional_speaks(&rigid, chain.misfit, &functional) ? functional : rigid;
     /* Both have counted the same rows. */
     run->told.head.samples = chain.head.samples;
     run->told.head.rejected = chain.head.rejected;
