@@ -194,13 +194,16 @@ static void measure(const told_t *told, bool sound, float *largest, float *sum)
     }
 }
 
-/* True if the functional model is the one to speak. The rigid one is exact where it is ready. On a person its levers shrink and its bounds
-   do not hold: there it is not believed. Else the model speaks that knows all four vectors better; where neither knows all, the one that
+/* True if the functional model is the one to speak. The rigid one is exact where it is ready, and where segments are rigid and it says that
+   the given length does not fit, it does not. On a person its levers shrink and its bounds do not hold: there it is not believed. Else the model speaks that knows all four vectors better; where neither knows all, the one that
    knows the others. A model against which more speaks than the size of its bounds has none: the functional one tells none, of the rigid
    one the reason is asked. */
 static bool functional_speaks(const told_t *rigid, float misfit, const told_t *functional)
 {
     const bool is_person = misfit > PERSON_MISFIT;
+    if (!is_person && rigid->head.reason == JCAL_REASON_DOES_NOT_FIT) {
+        return false;
+    }
     if (rigid->head.status == JCAL_READY || functional->head.status == JCAL_READY) {
         return is_person || rigid->head.status != JCAL_READY;
     }
