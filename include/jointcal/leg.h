@@ -20,7 +20,7 @@
 ///     if (result.known[JCAL_CHAIN_HIP_TO_THIGH]) { ... result.place_m[JCAL_CHAIN_HIP_TO_THIGH] ... }
 ///
 /// Units and frames: types.h. Settings: leg_config.h. Cost: 5 KiB of state.
-/// Method: docs/METHOD_PEOPLE.md, section 11. Source of the chain: [SAL15].
+/// Method: docs/METHOD_PEOPLE.md, section 13. Source of the chain: [SAL15].
 #ifndef JCAL_LEG_H
 #define JCAL_LEG_H
 

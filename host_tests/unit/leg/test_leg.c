@@ -18,7 +18,7 @@
 
 #define RUN_S 30.0
 
-/// Shares of a lever that skin may hide, of the proximal and of the distal sensor of a joint: docs/METHOD_PEOPLE.md, section 11.
+/// Shares of a lever that skin may hide, of the proximal and of the distal sensor of a joint: docs/METHOD_PEOPLE.md, section 13.
 static const double SKIN[JCAL_CHAIN_PLACES] = {0.17, 0.10, 0.17, 0.10};
 
 static jcal_leg_t leg;

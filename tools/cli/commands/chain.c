@@ -154,16 +154,23 @@ static void reset(void *self)
     (void)jcal_chain_reset(&run->chain); /* orientations that begin anew are nothing to the leg, which has its own */
 }
 
+/* On a person the rigid chain's levers shrink, and its bounds do not hold: none is told. */
+static bool is_person(const jcal_chain_result_t *rigid)
+{
+    return rigid->misfit > PERSON_MISFIT;
+}
+
 static told_t tell_rigid(const jcal_chain_result_t *rigid)
 {
+    const bool holds = !is_person(rigid);
     told_t told = {.head = rigid->head,
                    .model = JCAL_MODEL_RIGID,
                    .has_joint = {rigid->has_places, rigid->has_places},
                    .segment_length_m = rigid->segment_length_m,
-                   .uncertainty_segment_m = rigid->uncertainty_segment_m};
+                   .uncertainty_segment_m = holds ? rigid->uncertainty_segment_m : JCAL_BOUND_UNKNOWN_M};
     for (int k = 0; k < JCAL_CHAIN_PLACES; k++) {
         told.place_m[k] = rigid->place_m[k];
-        told.uncertainty_m[k] = rigid->uncertainty_m[k];
+        told.uncertainty_m[k] = holds ? rigid->uncertainty_m[k] : JCAL_BOUND_UNKNOWN_M;
     }
     return told;
 }
@@ -195,22 +202,20 @@ static void measure(const told_t *told, bool sound, float *largest, float *sum)
 }
 
 /* True if the functional model is the one to speak. The rigid one is exact where it is ready, and where segments are rigid and it says that
-   the given length does not fit, it does not. On a person its levers shrink and its bounds do not hold: there it is not believed. Else the model speaks that knows all four vectors better; where neither knows all, the one that
-   knows the others. A model against which more speaks than the size of its bounds has none: the functional one tells none, of the rigid
-   one the reason is asked. */
-static bool functional_speaks(const told_t *rigid, float misfit, const told_t *functional)
+   the given length does not fit, it does not; on a person it is not believed. Else the model speaks that knows all four vectors better;
+   where neither knows all, the one that knows the others. Where more speaks against the rigid one than the size of its bounds, those do
+   not count; the functional one tells none then. */
+static bool functional_speaks(const told_t *rigid, bool person, const told_t *functional)
 {
-    const bool is_person = misfit > PERSON_MISFIT;
-    if (!is_person && rigid->head.reason == JCAL_REASON_DOES_NOT_FIT) {
+    if (!person && rigid->head.reason == JCAL_REASON_DOES_NOT_FIT) {
         return false;
     }
     if (rigid->head.status == JCAL_READY || functional->head.status == JCAL_READY) {
-        return is_person || rigid->head.status != JCAL_READY;
+        return person || rigid->head.status != JCAL_READY;
     }
-    const bool sound = !is_person && rigid->head.reason == JCAL_REASON_UNCERTAIN;
     float largest[2];
     float sum[2];
-    measure(rigid, sound, &largest[0], &sum[0]);
+    measure(rigid, rigid->head.reason == JCAL_REASON_UNCERTAIN, &largest[0], &sum[0]);
     measure(functional, true, &largest[1], &sum[1]);
     return largest[1] < largest[0] || (largest[1] == largest[0] && sum[1] < sum[0]);
 }
@@ -229,7 +234,7 @@ static const jcal_head_t *get(void *self)
     (void)jcal_leg_get(&run->leg, &leg);
     const told_t rigid = tell_rigid(&chain);
     const told_t functional = tell_functional(&leg);
-    run->told = functional_speaks(&rigid, chain.misfit, &functional) ? functional : rigid;
+    run->told = functional_speaks(&rigid, is_person(&chain), &functional) ? functional : rigid;
     /* Both have counted the same rows. */
     run->told.head.samples = chain.head.samples;
     run->told.head.rejected = chain.head.rejected;
