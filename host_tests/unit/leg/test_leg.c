@@ -340,25 +340,26 @@ static void a_gap_in_one_sensor_leaves_all_in_step(void)
 }
 
 /* The gate does not look at the values of the first reading after a gap. If one sensor alone refused it, ticks would not be of the same
-   times ever after. */
+   times ever after. At 200 Hz: what the gate refuses next is no gap to the sensors then. */
 static void sensors_stay_in_step_when_one_refuses_the_first_reading_after_a_gap(void)
 {
     for (int sensor = 1; sensor <= 3; ++sensor) {
-        const chain_motion_t m = leg_lively(0);
+        chain_motion_t m = leg_lively(0);
+        m.hip.rate_hz = 200.0;
         setUp();
-        run(&m, 0.0, 8.0);
-        uint32_t k = sample_at(&m, 9.0);
+        run(&m, 0.0, 4.0);
+        uint32_t k = sample_at(&m, 5.0);
         const uint32_t ticks = leg.joint[0].ticks.count;
         jcal_triple_t triple = leg_sample(&m, k);
         jcal_imu_t *const imus[3] = {&triple.imu1, &triple.imu2, &triple.imu3};
         imus[sensor - 1]->gyr_rad_s.x = 250.0f;
         TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_leg_update(&leg, &triple));
-        for (uint32_t end = k + 200u; k < end;) {
+        for (uint32_t end = k + 800u; k < end;) {
             triple = leg_sample(&m, ++k);
             (void)jcal_leg_update(&leg, &triple);
         }
-        TEST_ASSERT_TRUE(leg.joint[0].ticks.count > ticks + 50u);
-        TEST_ASSERT_TRUE(leg.joint[1].ticks.count > ticks + 50u);
+        TEST_ASSERT_TRUE(leg.joint[0].ticks.count > ticks + 60u); /* 80 in 4 s, less those of the beginning */
+        TEST_ASSERT_TRUE(leg.joint[1].ticks.count > ticks + 60u);
     }
 }
 
@@ -380,6 +381,25 @@ static void what_is_refused_is_counted_once(void)
     TEST_ASSERT_EQUAL_UINT32(2u, r.head.rejected);
     TEST_ASSERT_EQUAL_UINT32(2u, r.head.rejected_by[JCAL_REJECT_NOT_FINITE]);
     TEST_ASSERT_EQUAL_UINT32(sample_at(&m, 4.0) + 2u, r.head.samples);
+}
+
+/* What the gate of one joint refuses, the sensor of the other does not follow either. */
+static void a_reading_that_one_gate_refuses_is_followed_by_none(void)
+{
+    for (int sensor = 1; sensor <= 3; ++sensor) {
+        const chain_motion_t m = leg_lively(0);
+        setUp();
+        run(&m, 0.0, 4.0);
+        jcal_triple_t triple = leg_sample(&m, sample_at(&m, 4.0));
+        const uint64_t before_us = leg.sensor[0].last_us;
+        jcal_imu_t *const imus[3] = {&triple.imu1, &triple.imu2, &triple.imu3};
+        imus[sensor - 1]->gyr_rad_s.x = 50.0f; /* no sensor stage would mind */
+        TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_leg_update(&leg, &triple));
+        TEST_ASSERT_EQUAL_UINT32(1u, result().head.rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
+        for (int i = 0; i < 3; ++i) {
+            TEST_ASSERT_EQUAL_UINT64(before_us, leg.sensor[i].last_us);
+        }
+    }
 }
 
 /* What clips or repeats is followed all the same: a turn that is left out is lost. */
@@ -462,6 +482,139 @@ static void steps_are_shared_between_the_joints(void)
     TEST_ASSERT_EQUAL_FLOAT(full[1] - 5.0f, leg.joint[1].credit);
     leg.joint[1].credit = 0.0f;
     TEST_ASSERT_EQUAL_INT(JCAL_IDLE, jcal_leg_step(&leg));
+}
+
+/* A leg of which everything is known, with places and bounds that are made up. */
+static void make_up(float bound_m)
+{
+    begin();
+    for (int i = 0; i < JCAL_LEG_JOINTS; ++i) {
+        jcal_ball_t *const joint = &leg.joint[i];
+        joint->has_estimate = true;
+        joint->verdict.status = (uint8_t)JCAL_READY;
+        joint->verdict.agreed = 3u;
+        joint->verdict.heading_rad = 0.1f;
+        joint->verdict.bound1_m = bound_m;
+        joint->verdict.bound2_m = bound_m;
+        joint->point.r1 = jcal_vec3(0.0f, 0.1f, 0.0f);
+        joint->point.r2 = jcal_vec3(0.0f, -0.3f, 0.0f);
+    }
+}
+
+/* By hand: r_h = 0.3 and r_k = 0.1 m, 0.4 m in all; the rests are 0.05 - 0.1 * 0.3 = 0.02 and 0.077 - 0.17 * 0.1 = 0.06 m. */
+static void bounds_with_a_known_length_are_those_worked_out_by_hand(void)
+{
+    config.thigh_length_m = 0.44f;
+    make_up(0.05f);
+    leg.joint[1].verdict.bound1_m = 0.077f;
+    jcal_leg_result_t r = result();
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.1f, r.length_factor);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, -0.33f, r.place_m[1].y);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.11f, r.place_m[2].y);
+    /* s = 0.75: common 0.25 * 0.02 + 0.75 * 0.06 = 0.05, more than 0.02 */
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.1f * (0.05f + 0.05f * 0.3f), r.uncertainty_m[1]);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.1f * (0.06f + 0.05f * 0.1f), r.uncertainty_m[2]);
+    /* the other way round: rests 0.06 and 0.02, common 0.03 */
+    leg.joint[0].verdict.bound2_m = 0.09f;
+    leg.joint[1].verdict.bound1_m = 0.037f;
+    r = result();
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.1f * (0.06f + 0.05f * 0.3f), r.uncertainty_m[1]);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 1.1f * (0.03f + 0.05f * 0.1f), r.uncertainty_m[2]);
+}
+
+/* The worst of what is not known is named, of the joint that it belongs to. */
+static void the_worst_that_is_open_is_named(void)
+{
+    static const jcal_hint_t hints[JCAL_CHAIN_PLACES] = {JCAL_HINT_MOVE_SEGMENT1, JCAL_HINT_MOVE_SEGMENT2,
+                                                         JCAL_HINT_MOVE_SEGMENT1, JCAL_HINT_MOVE_SEGMENT2};
+    for (int worst = 0; worst < JCAL_CHAIN_PLACES; ++worst) {
+        make_up(0.08f);
+        jcal_ball_verdict_t *const verdict = &leg.joint[worst / 2].verdict;
+        *((worst % 2 == 0) ? &verdict->bound1_m : &verdict->bound2_m) = 0.2f;
+        const jcal_leg_result_t r = result();
+        TEST_ASSERT_EQUAL_INT((worst < 2) ? JCAL_WEAK_CENTER1 : JCAL_WEAK_CENTER2, r.head.weak);
+        TEST_ASSERT_EQUAL_INT(hints[worst], r.head.hint);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, r.head.reason);
+    }
+}
+
+/* A joint that is not known as one has no vector that is, whatever its bounds; of two the one with the wider heading is told. */
+static void each_joint_stands_for_itself(void)
+{
+    for (int open = 0; open < JCAL_LEG_JOINTS; ++open) {
+        make_up(0.02f);
+        leg.joint[open].verdict.status = (uint8_t)JCAL_COLLECTING;
+        leg.joint[open].verdict.reason = (uint8_t)JCAL_REASON_NO_BEND;
+        leg.joint[open].verdict.hint = (uint8_t)JCAL_HINT_MOVE_JOINT;
+        jcal_leg_result_t r = result();
+        for (int i = 0; i < JCAL_CHAIN_PLACES; ++i) {
+            TEST_ASSERT_EQUAL(i / 2 != open, r.known[i]);
+        }
+        TEST_ASSERT_EQUAL_INT(JCAL_WEAK_HEADING, r.head.weak);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_BEND, r.head.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_JOINT, r.head.hint);
+        jcal_ball_verdict_t *const other = &leg.joint[1 - open].verdict;
+        other->status = (uint8_t)JCAL_COLLECTING;
+        other->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+        other->hint = (uint8_t)JCAL_HINT_MOVE_FASTER;
+        other->heading_rad = 0.5f;
+        r = result();
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, r.head.reason);
+        TEST_ASSERT_EQUAL_INT(JCAL_HINT_MOVE_FASTER, r.head.hint);
+    }
+}
+
+/* What a gate complains of is its joint's: neither of its vectors is known then. */
+static void a_complaint_takes_both_vectors_of_its_joint(void)
+{
+    for (int bad = 0; bad < JCAL_LEG_JOINTS; ++bad) {
+        make_up(0.02f);
+        leg.gate[bad].bad_share = 0.9f;
+        const jcal_leg_result_t r = result();
+        for (int i = 0; i < JCAL_CHAIN_PLACES; ++i) {
+            TEST_ASSERT_EQUAL(i / 2 != bad, r.known[i]);
+        }
+        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, r.head.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_BAD_SAMPLES, r.head.reason);
+        TEST_ASSERT_EQUAL_INT((bad == 0) ? JCAL_WEAK_CENTER1 : JCAL_WEAK_CENTER2, r.head.weak);
+    }
+}
+
+/* Settings reach both joints, and limits survive a reset. */
+static void settings_reach_the_joints(void)
+{
+    jcal_gate_config_t limits = jcal_gate_config_default();
+    limits.gyr_max_rad_s = 20.0f;
+    config.max_heading_rad = 0.05f;
+    config.max_lever_m = 0.025f;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_leg_init(&leg, &config, &limits));
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_leg_reset(&leg));
+    for (int i = 0; i < JCAL_LEG_JOINTS; ++i) {
+        TEST_ASSERT_EQUAL_FLOAT(0.05f, leg.joint[i].cfg.max_heading_rad);
+        TEST_ASSERT_EQUAL_FLOAT(0.025f, leg.joint[i].cfg.max_lever_m);
+    }
+    const chain_motion_t m = leg_lively(0);
+    jcal_triple_t triple = leg_sample(&m, 0u);
+    triple.imu3.gyr_rad_s.x = 25.0f;
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_leg_update(&leg, &triple));
+}
+
+/* As many slices as two joints are due: with 100 a second each, two and two at 50 Hz. */
+static void an_update_does_what_is_due_for_both_joints(void)
+{
+    const chain_motion_t m = leg_lively(0);
+    run(&m, 0.0, 4.0);
+    const jcal_triple_t triple = leg_sample(&m, sample_at(&m, 4.0));
+    jcal_leg_t by_hand = leg;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_leg_push(&by_hand, &triple));
+    for (int i = 0; i < 4; ++i) {
+        (void)jcal_leg_step(&by_hand);
+    }
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_leg_update(&leg, &triple));
+    TEST_ASSERT_EQUAL_FLOAT(by_hand.joint[0].credit, leg.joint[0].credit);
+    TEST_ASSERT_EQUAL_FLOAT(by_hand.joint[1].credit, leg.joint[1].credit);
+    TEST_ASSERT_EQUAL_UINT64(triple.t_us, leg.last_us);
+    TEST_ASSERT_EQUAL_UINT64(leg.joint[0].ticks.last_us, result().head.t_us);
 }
 
 /* What is known may become worse by a fifth before it is not any more. */
@@ -571,11 +724,18 @@ int main(void)
     RUN_TEST(a_gap_in_one_sensor_leaves_all_in_step);
     RUN_TEST(sensors_stay_in_step_when_one_refuses_the_first_reading_after_a_gap);
     RUN_TEST(what_is_refused_is_counted_once);
+    RUN_TEST(a_reading_that_one_gate_refuses_is_followed_by_none);
     RUN_TEST(a_repeated_reading_is_counted_and_followed);
     RUN_TEST(wrong_units_of_one_sensor_are_told_and_spare_the_other_joint);
     RUN_TEST(a_slip_of_one_sensor_is_noticed_and_spares_the_other_joint);
     RUN_TEST(steps_are_shared_between_the_joints);
     RUN_TEST(what_is_known_stays_so_while_its_bound_breathes);
+    RUN_TEST(bounds_with_a_known_length_are_those_worked_out_by_hand);
+    RUN_TEST(the_worst_that_is_open_is_named);
+    RUN_TEST(each_joint_stands_for_itself);
+    RUN_TEST(a_complaint_takes_both_vectors_of_its_joint);
+    RUN_TEST(settings_reach_the_joints);
+    RUN_TEST(an_update_does_what_is_due_for_both_joints);
     RUN_TEST(a_copy_goes_on_with_the_same_bits_and_reset_begins_anew);
     RUN_TEST(settings_have_ranges);
     RUN_TEST(null_wrong_settings_and_what_was_never_prepared_are_errors);
