@@ -23,8 +23,9 @@ PAGE = target.ROOT / "docs/measurements/budget.md"
 M4F = target.PLATFORMS["m4f"]
 ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
 TWO_DOF, CENTER, CHAIN, SENSOR = "two_dof_stream", "center_stream", "chain", "sensor"
+LEG = "leg"
 FUNCTIONAL, AUTO, TWO_AXES = "functional_hinge", "hinge_auto", "two_axes"
-DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN", SENSOR: "REPLAY_SENSOR",
+DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN", LEG: "REPLAY_LEG", SENSOR: "REPLAY_SENSOR",
            FUNCTIONAL: "REPLAY_FUNCTIONAL", AUTO: "REPLAY_AUTO", TWO_AXES: "REPLAY_TWO_AXES"}
 INSTANCES, RATE_HZ = 16, 100
 KNEE, ELBOW = "people_knee_long_R1", "people_elbow_B_JA_Fast"
@@ -135,6 +136,18 @@ def chain(stack: dict[str, int]) -> dict:
             f"{CHAIN}_push_instructions_mean": round(statistics.mean(counts["update"])), f"{CHAIN}_state_bytes": printed["state"],
             f"{CHAIN}_stack_painted_bytes": printed["stack"],
             f"{CHAIN}_stack_call_graph_bytes": max(stack.get(f"jcal_chain_{name}", 0) for name in ("push", "step", "get"))}
+
+
+def leg(stack: dict[str, int]) -> dict:
+    """Hip and knee of a person at 100 Hz: jcal_leg_push with its three sensors, jcal_leg_step, and both with all slices that are due."""
+    samples = target.triples_file(target.recordings(["human_leg_left"], "chain_demo")[0], RATE_HZ)
+    counts, _, printed = counts_of(target.build_plugin(), LEG, samples, ("REPLAY_STACK",))
+    split, _, _ = counts_of(target.build_plugin(), LEG, samples, ("REPLAY_SPLIT",))
+    return {f"{LEG}_push_instructions_max": max(split["push"]), f"{LEG}_step_instructions_max": max(split["step"]),
+            f"{LEG}_update_instructions_max": max(counts["update"]),
+            f"{LEG}_update_instructions_mean": round(statistics.mean(counts["update"])),
+            f"{LEG}_state_bytes": printed["state"], f"{LEG}_stack_painted_bytes": printed["stack"],
+            f"{LEG}_stack_call_graph_bytes": max(stack.get(f"jcal_leg_{name}", 0) for name in ("push", "step", "update", "get"))}
 
 
 def sensor(stack: dict[str, int]) -> dict:
@@ -256,7 +269,8 @@ def measure(samples: Path, recording: Path) -> tuple[dict, dict]:
         numbers[f"hinge_{engine}_state_bytes"] = of["state"]
         numbers[f"hinge_{engine}_stack_painted_bytes"] = of["stack"]
         numbers[f"hinge_{engine}_stack_call_graph_bytes"] = stack.get(f"jcal_{prefix}_update", 0)
-    numbers |= two_dof(stack) | center(stack) | chain(stack) | sensor(stack) | functional(stack) | two_axes(stack) | hinge_auto(stack)
+    numbers |= two_dof(stack) | center(stack) | chain(stack) | leg(stack) | sensor(stack) | functional(stack) | two_axes(stack)
+    numbers |= hinge_auto(stack)
     numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
     numbers |= sixteen(recording)
     numbers["hub_flash_bytes"] = linked_bytes("hub") - linked_bytes("hub_empty", ("HUB_EMPTY",))

@@ -161,3 +161,71 @@ def slow_rows(seconds, rate_hz=50.0):
             imus += [v + noise.gauss(0, 0.01) for v in rate] + [v + noise.gauss(0, 0.05) for v in rotate(conjugate(now[sensor]), force)]
         rows.append([t] + imus)
     return rows
+
+
+LEG_COLUMNS = ["t_s"] + [f"{kind}{sensor}_{axis}" for sensor in (1, 2, 3) for kind in ("gyr", "acc") for axis in "xyz"]
+# Joint to sensor, each in its sensor's frame, m; hip to knee is what the two of the thigh differ by.
+LEG_PLACES = {"hip_to_pelvis_m": [-0.05, 0.1, 0.08], "hip_to_thigh_m": [0.05, -0.2, 0.06], "knee_to_thigh_m": [0.03, 0.2, 0.05],
+              "knee_to_shank_m": [0.04, -0.18, 0.05]}
+LEG_THIGH_M = math.dist(LEG_PLACES["hip_to_thigh_m"], LEG_PLACES["knee_to_thigh_m"])
+
+
+def rotate(q, v):
+    """The vector in the frame that q leads to."""
+    turned = multiply(multiply(q, [0.0, *v]), [q[0], -q[1], -q[2], -q[3]])
+    return turned[1:]
+
+
+def chain_of_turns(*turns):
+    """Product of turns (angle, axis)."""
+    q = [1.0, 0.0, 0.0, 0.0]
+    for angle, axis in turns:
+        q = multiply(q, turn(angle, axis))
+    return q
+
+
+def leg_poses(t, rock_rad, turns_pelvis):
+    """Of the sensors on pelvis, thigh and shank: orientation to earth, and position. After a second of rest everything moves. Each sensor
+    rocks on its segment at 7 to 9 Hz, as skin does, that of a pelvis which does not turn a hundredth as much."""
+    since = t - 1.0
+    p = 0.0 if since <= 0 else (since ** 3 * (1 - 0.5 * since) if since < 1 else since - 0.5)
+
+    def wave(hz, phase):
+        return math.sin(2 * math.pi * hz * p + phase) - math.sin(phase)
+
+    turns = 1.0 if turns_pelvis else 0.0
+    pelvis = chain_of_turns((0.5 * turns * wave(0.5, 0.3), 2), (0.4 * turns * wave(0.7, 1.0), 0), (0.4 * turns * wave(0.9, 2.0), 1))
+    thigh = multiply(pelvis, chain_of_turns((0.7 * wave(0.8, 0.5), 0), (0.3 * wave(0.6, 1.5), 1), (0.3 * wave(1.1, 2.5), 2)))
+    shank = multiply(thigh, chain_of_turns((0.8 * wave(0.9, 0.9), 0), (0.25 * wave(0.7, 0.1), 1), (0.25 * wave(1.0, 1.1), 2)))
+    hip = [0.10 * wave(0.9, 0.2), 0.10 * wave(0.8, 1.2), 0.06 * wave(1.3, 2.2)]
+    places = LEG_PLACES
+    along = [a - b for a, b in zip(places["hip_to_thigh_m"], places["knee_to_thigh_m"], strict=True)]
+    knee = [a + b for a, b in zip(hip, rotate(thigh, along), strict=True)]
+    found = []
+    for sensor, (segment, joint, place) in enumerate(((pelvis, hip, "hip_to_pelvis_m"), (thigh, hip, "hip_to_thigh_m"),
+                                                      (shank, knee, "knee_to_shank_m"))):
+        at = [a + b for a, b in zip(joint, rotate(segment, places[place]), strict=True)]
+        rock = rock_rad if turns_pelvis or sensor > 0 else 0.01 * rock_rad
+        skin = chain_of_turns(*((rock * wave(7.1 + 0.7 * sensor + 0.3 * axis, 0.4 * axis), axis) for axis in range(3)))
+        found.append((multiply(segment, skin), at))
+    return found
+
+
+def leg_rows(seconds, rock_rad=0.02, turns_pelvis=True, rate_hz=50.0, seed=1):
+    """Rows (lists of 19 numbers) of sensors on a person's pelvis, thigh and shank: differences of poses, and noise."""
+    noise = random.Random(seed)
+    h = 1e-4
+    rows = []
+    for k in range(int(seconds * rate_hz)):
+        t = k / rate_hz
+        row = [t]
+        for before, now, after in zip(*(leg_poses(t + step, rock_rad, turns_pelvis) for step in (-h, 0.0, h)), strict=True):
+            (q0, at0), (q, at), (q1, at1) = before, now, after
+            step = multiply([q0[0], -q0[1], -q0[2], -q0[3]], q1)
+            force = [(a - 2 * b + c) / h ** 2 for a, b, c in zip(at0, at, at1, strict=True)]
+            force[2] += 9.81
+            rates = [value / h for value in step[1:]]
+            felt = rotate([q[0], -q[1], -q[2], -q[3]], force)
+            row += [value + noise.gauss(0, 0.002) for value in rates] + [value + noise.gauss(0, 0.02) for value in felt]
+        rows.append(row)
+    return rows

@@ -12,10 +12,12 @@ DEMO = pathlib.Path(__file__).resolve().parents[2] / "tools/demo/chain_demo.csv"
 TRUTH = json.loads(DEMO.with_suffix(".json").read_text())
 PLACES = ["hip_to_pelvis_m", "hip_to_thigh_m", "knee_to_thigh_m", "knee_to_shank_m"]
 KEYS = ["event", "t_s", "status", "engine", "weak", "hint", "reason", *PLACES, "uncertainty_m", "segment_length_m",
-        "uncertainty_segment_m", "advice", "samples", "rejected", "rejected_by"]
+        "uncertainty_segment_m", "model", "advice", "samples", "rejected", "rejected_by"]
 FILE = DEMO.read_text()
 COLUMNS = FILE.split("\n", 1)[0].split(",")
 CELLS = [line.split(",") for line in FILE.splitlines()[1:]]
+PERSON = recordings.csv(recordings.texts(recordings.leg_rows(20)), recordings.LEG_COLUMNS)
+THIGH_PLACES = PLACES[1:3]
 
 
 class ChainTest(ProgramTest):
@@ -27,8 +29,8 @@ class ChainTest(ProgramTest):
         self.assertEqual(result.stderr, b"")
         return self.parse(result.stdout), result.returncode
 
-    def errors(self, line):
-        return [math.dist(line[name], TRUTH[name]) for name in PLACES]
+    def errors(self, line, truth=TRUTH):
+        return [math.dist(line[name], truth[name]) for name in PLACES]
 
 
 class Accepted(ChainTest):
@@ -39,7 +41,7 @@ class Accepted(ChainTest):
                 self.assertEqual(list(line), KEYS)
                 self.assertEqual(list(line["rejected_by"]), REJECT_KEYS)
                 self.assertEqual(line["engine"], "stream")
-            for key in [*PLACES, "uncertainty_m", "segment_length_m", "uncertainty_segment_m"]:
+            for key in [*PLACES, "uncertainty_m", "segment_length_m", "uncertainty_segment_m", "model"]:
                 self.assertIsNone(lines[0][key])
             events = [line["event"] for line in lines]
             self.assertEqual((events[0], events[-1], events.count("end")), ("estimate", "end", 1))
@@ -47,7 +49,7 @@ class Accepted(ChainTest):
     def test_truth(self):
         for method in ("ss", "sa"):
             lines, status = self.lines(FILE, "--every", "0.5", "--method", method)
-            self.assertEqual((status, lines[-1]["status"]), (0, "ready"), method)
+            self.assertEqual((status, lines[-1]["status"], lines[-1]["model"]), (0, "ready", "rigid"), method)
             self.assertIn("ready", [line["event"] for line in lines])
             for line in lines:
                 if line["status"] == "ready":
@@ -125,6 +127,97 @@ class Accepted(ChainTest):
         self.assertEqual((status, lines[0]["samples"], lines[0]["t_s"]), (3, 0, None))
 
 
+class Person(ChainTest):
+    """Sensors that rock on their segments as skin does."""
+
+    def test_the_functional_model_speaks_and_is_ready_for_what_skin_allows(self):
+        lines, status = self.lines(PERSON, "--max-bound", "0.06", "--every", "1")
+        self.assertEqual((status, lines[-1]["status"], lines[-1]["model"]), (0, "ready", "functional"))
+        self.assertIsNone(lines[-1]["weak"])
+        for line in lines:
+            self.assertEqual(list(line), KEYS)
+            if line["model"] == "functional" and line["uncertainty_m"] is not None:
+                for error, bound in zip(self.errors(line, recordings.LEG_PLACES), line["uncertainty_m"], strict=True):
+                    self.assertTrue(bound is None or error < bound, line)
+            if line["status"] == "ready":
+                self.assertLess(abs(line["segment_length_m"] - recordings.LEG_THIGH_M), line["uncertainty_segment_m"])
+                self.assertAlmostEqual(line["uncertainty_segment_m"], sum(line["uncertainty_m"][1:3]), places=6)
+        self.assertEqual(lines[-1]["samples"], 1000)
+
+    def test_ten_millimetres_are_never_reached(self):
+        lines, status = self.lines(PERSON, "--every", "1")
+        self.assertEqual((status, lines[-1]["model"], lines[-1]["reason"]), (3, "functional", "uncertain"))
+        self.assertNotIn("ready", [line["status"] for line in lines])
+
+    def test_a_known_thigh_takes_the_share_of_skin_out(self):
+        plain = self.lines(PERSON, "--max-bound", "0.06")[0][-1]
+        for length in (0.9 * recordings.LEG_THIGH_M, recordings.LEG_THIGH_M):
+            line, status = self.lines(PERSON, "--max-bound", "0.06", "--thigh-length", str(length))
+            known = line[-1]
+            self.assertEqual((status, known["model"]), (0, "functional"))
+            self.assertAlmostEqual(known["segment_length_m"], length, places=6)
+            for place, found in plain.items():
+                if place in THIGH_PLACES:
+                    factor = length / plain["segment_length_m"]
+                    self.assertLess(math.dist(known[place], [factor * value for value in found]), 1e-6)
+                elif place in PLACES:
+                    self.assertEqual(known[place], found)
+            for k in (1, 2):
+                self.assertLess(known["uncertainty_m"][k], plain["uncertainty_m"][k])
+            for k in (0, 3):
+                self.assertEqual(known["uncertainty_m"][k], plain["uncertainty_m"][k])
+
+    def test_a_thigh_that_cannot_be_has_no_bounds(self):
+        lines, status = self.lines(PERSON, "--max-bound", "0.06", "--thigh-length", "0.7")
+        end = lines[-1]
+        self.assertEqual((status, end["status"], end["reason"], end["hint"]), (3, "collecting", "does_not_fit", "check_sensors"))
+        self.assertEqual([bound is None for bound in end["uncertainty_m"]], [False, True, True, False])
+        self.assertIsNone(end["uncertainty_segment_m"])
+        self.assertLess(abs(end["segment_length_m"] - recordings.LEG_THIGH_M), 0.02)
+
+    def test_a_still_pelvis_leaves_the_others_known(self):
+        cells = recordings.texts(recordings.leg_rows(20, turns_pelvis=False))
+        lines, status = self.lines(recordings.csv(cells, recordings.LEG_COLUMNS), "--max-bound", "0.06")
+        end = lines[-1]
+        self.assertEqual((status, end["model"], end["weak"], end["hint"]), (3, "functional", "center1", "move_segment1"))
+        errors = self.errors(end, recordings.LEG_PLACES)
+        for error, bound in zip(errors[1:], end["uncertainty_m"][1:], strict=True):
+            self.assertLess(error, bound)
+            self.assertLess(bound, 0.06)
+        self.assertTrue(end["uncertainty_m"][0] is None or errors[0] < end["uncertainty_m"][0])
+        text = self.chain(recordings.csv(cells, recordings.LEG_COLUMNS), "--max-bound", "0.06").stdout.decode()
+        self.assertIn("centre of the hip", text)
+        self.assertIn("turn the pelvis", text)
+
+    def test_rigid_segments_that_a_length_contradicts_are_not_ready(self):
+        rigid = recordings.csv(recordings.texts(recordings.leg_rows(20, rock_rad=0.0)), recordings.LEG_COLUMNS)
+        self.assertEqual(self.lines(rigid)[0][-1]["model"], "rigid")
+        end = self.lines(rigid, "--max-bound", "0.06", "--thigh-length", "0.35")[0][-1]
+        self.assertEqual((end["status"], end["reason"], end["model"]), ("collecting", "does_not_fit", "rigid"))
+
+    def test_rates_that_shake_do_not_make_the_rigid_model_speak(self):
+        """Its levers shrink to nothing then, with bounds of centimetres."""
+        cells = [list(row) for row in CELLS]
+        for row in cells:
+            for k in range(9):
+                at = COLUMNS.index(f"gyr{k // 3 + 1}_{'xyz'[k % 3]}")
+                row[at] = f"{float(row[at]) + 2 * math.sin(2 * math.pi * (8 + 0.7 * (k // 3) + 0.3 * k) * float(row[0]) + k):.6f}"
+        lines, _ = self.lines(recordings.csv(cells, COLUMNS), "--max-bound", "0.1", "--every", "1")
+        for line in lines:
+            self.assertFalse(line["status"] == "ready" and line["model"] == "rigid", line)
+            if line["uncertainty_m"] is not None:
+                for name, bound in zip(PLACES, line["uncertainty_m"], strict=True):
+                    self.assertTrue(bound is None or math.dist(line[name], TRUTH[name]) < bound, line)
+        self.assertEqual(lines[-1]["model"], "functional")
+
+    def test_summary_for_people(self):
+        text = self.chain(PERSON, "--max-bound", "0.06").stdout.decode()
+        self.assertTrue(text.startswith("Hip and knee, stream engine: ready\n"))
+        for part in ("model              functional: ", "to within 60 mm (95 % confidence)", "from hip to knee      "):
+            self.assertIn(part, text)
+        self.assertNotIn("functional", self.chain(FILE).stdout.decode())
+
+
 class Refused(ChainTest):
     def test_help(self):
         result = self.run_program("chain", "--help")
@@ -143,7 +236,7 @@ class Refused(ChainTest):
         self.assert_usage(["chain", "a", "b"], "'b' is a second one")
         self.assert_usage(["chain", "a", "--method", "best"], "--method: 'best' is neither ss, sa nor ls")
         for option, values in (("window", ("0", "9", "3601", "x")), ("max-bound", ("0", "0.2", "10", "x", "inf")),
-                               ("thigh-length", ("0", "0.04", "1.1", "42", "x")), ("smoothing", ("-1", "2.1", "x"))):
+                               ("thigh-length", ("0", "0.09", "1.1", "42", "x")), ("smoothing", ("-1", "2.1", "x"))):
             for value in values:
                 self.assert_usage(["chain", "a", f"--{option}={value}"], "--" + option)
 

@@ -208,7 +208,8 @@ class Derivatives(unittest.TestCase):
     def test_bounds_are_those_of_the_profile_of_the_cost(self):
         """Variance of a heading and of the worst direction of a lever: one over the curvature once everything else follows, by solving."""
         found, heading = br.bounds(self.case.sums, self.case.past, self.case.point)
-        numeric = self.case.second_differences() + np.diag([1.0] * 6 + [0.0] * 2)  # no lever is longer than a metre
+        numeric = self.case.second_differences()
+        numeric += 1e-5 * np.max(np.diag(numeric)[:6]) * np.diag([1.0] * 6 + [0.0] * 2)
 
         def variance(direction):
             """Of direction . x, with the least cost among all x that have it at 1."""
@@ -243,6 +244,36 @@ class Derivatives(unittest.TestCase):
         keep = [0, 1, 3, 4, 6]
         self.assertAlmostEqual(heading, 2.0 * np.sqrt(np.linalg.inv(full[np.ix_(keep, keep)])[4, 4]), delta=1e-2 * heading)
 
+    def still_distal(self, turned):
+        """Bounds with a distal segment that turns by `turned` of what it would."""
+        rng = np.random.default_rng(16)
+        sums, point = br.Sums(), br.Point()
+        for a, b in random_ticks(rng, 200, noise=1e-5):
+            lever = turned * b.lever
+            sums.add(a, b._replace(lever=lever, velocity=b.velocity - (b.lever - lever) @ R2), TICK_S, TICK_S)
+        for _ in range(20):
+            br.put_levers(sums, point)
+            br.put_headings(sums, br.Past(), point)
+        return point, br.bounds(sums, br.Past(), point)
+
+    def test_a_lever_that_nothing_tells_of_spoils_no_other(self):
+        _, (both, heading) = self.still_distal(1.0)
+        self.assertTrue(np.all(both < 0.05))
+        for turned in (0.0, 1e-6, 1e-4):
+            point, (levers, still) = self.still_distal(turned)
+            self.assertEqual(levers[1], br.UNKNOWN_M)
+            self.assertLess(np.linalg.norm(point.r[:3] - R1), levers[0])
+            self.assertLess(levers[0], 0.05)
+            self.assertAlmostEqual(still, heading, delta=0.2 * heading)
+
+    def test_what_the_ridge_takes_is_in_the_bound(self):
+        """2 % of the turning: a ridge that takes a share of the lever."""
+        with mock.patch.object(br, "RIDGE", 1e-3):
+            point, (levers, _) = self.still_distal(0.02)
+        self.assertGreater(np.linalg.norm(point.r[3:] - R2), 0.03)
+        self.assertLess(np.linalg.norm(point.r[3:] - R2), levers[1])
+        self.assertLess(levers[1], br.UNKNOWN_M)
+
     def test_errors_of_the_regressors_are_worth_half_of_what_they_shorten_levers_by(self):
         rng = np.random.default_rng(7)
         sums, point = br.Sums(), br.Point()
@@ -252,7 +283,7 @@ class Derivatives(unittest.TestCase):
         with mock.patch.object(br, "RIDGE", 0.0):
             br.put_levers(sums, point)
         found, _ = br.bounds(sums, br.Past(), point)
-        covariance = np.linalg.inv(br.information(sums, br.Past(), point)[:7, :7] + np.diag([1.0] * 6 + [0.0]))
+        covariance = np.linalg.inv(br.information(sums, br.Past(), point)[:7, :7])
         for k, (truth, share) in enumerate(((R1, 0.17), (R2, 0.10))):
             part = slice(3 * k, 3 * k + 3)
             r, spread = point.r[part], 0.5 * np.sqrt(np.linalg.eigvalsh(covariance[part, part])[-1])

@@ -15,30 +15,16 @@
 #include "jointcal/chain_config.h"
 #include "jointcal/head.h"
 #include "jointcal/private/chain/stream.h"
+#include "jointcal/triple.h"
 
 #ifdef __cplusplus
 extern "C" {
 #endif
 
-/// Simultaneous readings of the three IMUs: 1 pelvis, 2 thigh, 3 shank.
-typedef struct {
-    uint64_t t_us;  ///< Time in microseconds, any origin, strictly increasing.
-    jcal_imu_t imu1, imu2, imu3;
-} jcal_triple_t;
-
-/// Their orientations, each to an earth frame of its own.
+/// Orientations of the three IMUs, each to an earth frame of its own.
 typedef struct {
     jcal_quat_t q1, q2, q3;
 } jcal_triple_attitudes_t;
-
-/// The four vectors.
-typedef enum {
-    JCAL_CHAIN_HIP_TO_PELVIS = 0,  ///< From the hip's centre to sensor 1, in sensor frame 1.
-    JCAL_CHAIN_HIP_TO_THIGH = 1,   ///< From the hip's centre to sensor 2, in sensor frame 2.
-    JCAL_CHAIN_KNEE_TO_THIGH = 2,  ///< From the knee's centre to sensor 2, in sensor frame 2.
-    JCAL_CHAIN_KNEE_TO_SHANK = 3   ///< From the knee's centre to sensor 3, in sensor frame 3.
-} jcal_chain_place_t;
-#define JCAL_CHAIN_PLACES 4
 
 /// What is known of hip and knee. Its status is never JCAL_AMBIGUOUS.
 typedef struct {
@@ -51,6 +37,7 @@ typedef struct {
     float segment_length_m;                  ///< Distance of hip and knee as estimated.
     float uncertainty_segment_m;             ///< 95 % bound of that.
     jcal_calibration_t joint_status[2];      ///< Of hip and knee, each by itself.
+    float misfit;                            ///< The larger of both joints' (center.h): on a person 0.2 and more.
 } jcal_chain_result_t;
 
 /// Prepares an estimator; whatever `self` held before is lost.

@@ -15,6 +15,7 @@
 /// | two axes and the heading offset | two_dof.h; two_dof_window.h is the published algorithm | two_dof_config.h |
 /// | the joint's centre | center.h; center_window.h is the published algorithm | center_config.h, kinematics.h |
 /// | hip and knee together | chain.h | chain_config.h |
+/// | a person's hip and knee | leg.h | leg_config.h |
 /// | joint angles from orientations | joint_angles.h, joint_heading.h | |
 /// | one sensor's orientation and features, once for all its joints | sensor.h, tick.h | |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
@@ -43,11 +44,13 @@
 #include "jointcal/hinge_window.h"
 #include "jointcal/joint_angles.h"
 #include "jointcal/joint_heading.h"
+#include "jointcal/leg.h"
 #include "jointcal/orientation.h"
 #include "jointcal/quat.h"
 #include "jointcal/sensor.h"
 #include "jointcal/status.h"
 #include "jointcal/tick.h"
+#include "jointcal/triple.h"
 #include "jointcal/two_axes.h"
 #include "jointcal/two_axes_pair.h"
 #include "jointcal/two_dof.h"

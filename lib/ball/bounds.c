@@ -19,11 +19,10 @@
 #define HEADING_SHARE 2.0f
 #define LEVER_FLOOR_M 0.003f
 #define LEVER_SHARE 0.5f
-#define SKIN1 0.17f
-#define SKIN2 0.10f
-/// What is known of each component of a lever beforehand, 1/m^2: none is much longer than a metre. Of a joint that bends about one line only
-/// the centre is open along it, and nothing else would be known of such a motion.
-#define LEVER_KNOWN 1.0f
+/// Share of the largest diagonal element that every direction is given: three times what rounding takes (chol_small.h).
+#define OPEN_SHARE 1e-5f
+/// A variance of so much of what that share alone would leave is no knowledge.
+#define OPEN_VARIANCE 0.5f
 /// Square of the least length of the levers that errors of the regressors are spread over, m^2.
 #define LENGTH2_MIN 1e-6f
 
@@ -94,15 +93,33 @@ static float determinant(const float *m)
     return (m[0] * m[2]) - (m[1] * m[1]);
 }
 
+/// What every direction of an information about both levers (6 x 6, packed) is given.
+static float open_information(const float *h)
+{
+    const float first = jcal_max(h[0], jcal_max(h[2], h[5]));
+    const float second = jcal_max(h[9], jcal_max(h[14], h[20]));
+    return OPEN_SHARE * jcal_max(first, second);
+}
+
+/// Adds to the diagonal (6 x 6, packed): `own1` of lever 1 and `own2` of lever 2.
+static void add_diagonal(float own1, float own2, float *h)
+{
+    h[0] += own1;
+    h[2] += own1;
+    h[5] += own1;
+    h[9] += own2;
+    h[14] += own2;
+    h[20] += own2;
+}
+
 static void bound_heading(jcal_ball_t *self)
 {
     jcal_ball_verdict_t *const v = &self->verdict;
     float q[2u * JCAL_LEVER_UNKNOWNS];
     jcal_ball_information(&self->sums, &self->past, &self->point, v->factor, q, v->left);
     v->heading_rad = JCAL_BOUND_UNKNOWN_RAD;
-    for (size_t i = 0u; i < JCAL_LEVER_UNKNOWNS; ++i) {
-        v->factor[jcal_sym_at(i, i)] += LEVER_KNOWN;
-    }
+    v->open = open_information(v->factor);
+    add_diagonal(v->open, v->open, v->factor);
     if (!jcal_chol6_factor(v->factor)) {
         v->left[0] = 0.0f; /* nothing of the kind is known */
         return;
@@ -123,7 +140,8 @@ static void bound_heading(jcal_ball_t *self)
     v->heading_rad = jcal_min(HEADING_SHARE * sqrtf(v->left[2] / known), JCAL_BOUND_UNKNOWN_RAD);
 }
 
-/// Half of the standard deviation in the direction that is known least, of the lever whose unknowns begin with `first`.
+/// Half of the standard deviation in the direction that is known least, of the lever whose unknowns begin with `first`; without bound if
+/// nothing tells of that direction.
 static float spread(const jcal_ball_verdict_t *v, size_t first)
 {
     const float known = determinant(v->left);
@@ -143,43 +161,67 @@ static float spread(const jcal_ball_verdict_t *v, size_t first)
     }
     jcal_eig3_values(covariance);
     const float widest = jcal_max(covariance[0], jcal_max(covariance[2], covariance[5]));
-    return LEVER_SHARE * sqrtf(jcal_max(widest, 0.0f));
+    const bool is_open = !((widest * v->open) < OPEN_VARIANCE);
+    return is_open ? JCAL_BOUND_UNKNOWN_M : (LEVER_SHARE * sqrtf(jcal_max(widest, 0.0f)));
 }
 
-/// The bounds, from spreads and what errors of the regressors, were they all that is left, shorten the levers by.
+/// Both levers, were `noise1` and `noise2` of the information (6 x 6, packed) that of errors of the regressors. False if nothing is left.
+static bool lengthen(const float *h, const float *g, float noise1, float noise2, float *longer)
+{
+    float less[JCAL_SYM_SIZE(JCAL_LEVER_UNKNOWNS)];
+    for (size_t i = 0u; i < JCAL_SYM_SIZE(JCAL_LEVER_UNKNOWNS); ++i) {
+        less[i] = h[i];
+    }
+    for (size_t i = 0u; i < JCAL_LEVER_UNKNOWNS; ++i) {
+        longer[i] = g[i];
+    }
+    add_diagonal(-noise1, -noise2, less);
+    if (!jcal_chol6_factor(less)) {
+        return false;
+    }
+    jcal_chol6_solve(less, longer);
+    return true;
+}
+
+/// The bound of a lever `r` that may be `longer` (3); `skin` is the share of it that no IMU can see.
+static float lever_bound(const float *longer, jcal_vec3_t r, float spread_m, float skin)
+{
+    const jcal_vec3_t by = {longer[0] - r.x, longer[1] - r.y, longer[2] - r.z};
+    const float bound = LEVER_FLOOR_M + spread_m + jcal_vec3_norm(by) + (skin * jcal_vec3_norm(r));
+    return (bound < JCAL_BOUND_UNKNOWN_M) ? bound : JCAL_BOUND_UNKNOWN_M; /* so for NaN, too */
+}
+
+/// The bounds, from spreads and from what the ridge of the solve and errors of the regressors, were they all that is left, shorten the
+/// levers by.
 static void bound_levers(jcal_ball_t *self)
 {
     jcal_ball_verdict_t *const v = &self->verdict;
     const jcal_ball_point_t *const point = &self->point;
     float x[16];
     float h[JCAL_SYM_SIZE(JCAL_LEVER_UNKNOWNS)];
-    float less[JCAL_SYM_SIZE(JCAL_LEVER_UNKNOWNS)];
     float g[JCAL_LEVER_UNKNOWNS];
     float longer[JCAL_LEVER_UNKNOWNS];
+    v->bound1_m = JCAL_BOUND_UNKNOWN_M;
+    v->bound2_m = JCAL_BOUND_UNKNOWN_M;
+    if (!(v->left[0] > 0.0f)) {
+        return;
+    }
     jcal_levers_cross(&self->sums.levers, point->heading, x);
     jcal_levers_normal(&self->sums.levers, x, h, g);
     const float length2 = jcal_vec3_dot(point->r1, point->r1) + jcal_vec3_dot(point->r2, point->r2);
     const float noise = 0.5f * point->lack / jcal_max(length2, LENGTH2_MIN);
-    for (size_t i = 0u; i < JCAL_SYM_SIZE(JCAL_LEVER_UNKNOWNS); ++i) {
-        less[i] = h[i];
-    }
-    for (size_t i = 0u; i < JCAL_LEVER_UNKNOWNS; ++i) {
-        less[jcal_sym_at(i, i)] -= noise;
-        longer[i] = g[i];
-    }
-    if (!(v->left[0] > 0.0f) || !jcal_chol6_factor(h) || !jcal_chol6_factor(less)) {
-        v->bound1_m = JCAL_BOUND_UNKNOWN_M;
-        v->bound2_m = JCAL_BOUND_UNKNOWN_M;
+    if (lengthen(h, g, noise, noise, longer)) {
+        v->bound1_m = lever_bound(&longer[0], point->r1, v->spread1_m, JCAL_BALL_SKIN1);
+        v->bound2_m = lever_bound(&longer[3], point->r2, v->spread2_m, JCAL_BALL_SKIN2);
         return;
     }
-    jcal_chol6_solve(h, g);
-    jcal_chol6_solve(less, longer);
-    const jcal_vec3_t by1 = {longer[0] - g[0], longer[1] - g[1], longer[2] - g[2]};
-    const jcal_vec3_t by2 = {longer[3] - g[3], longer[4] - g[4], longer[5] - g[5]};
-    const float bound1 = LEVER_FLOOR_M + v->spread1_m + jcal_vec3_norm(by1) + (SKIN1 * jcal_vec3_norm(point->r1));
-    const float bound2 = LEVER_FLOOR_M + v->spread2_m + jcal_vec3_norm(by2) + (SKIN2 * jcal_vec3_norm(point->r2));
-    v->bound1_m = jcal_min(bound1, JCAL_BOUND_UNKNOWN_M);
-    v->bound2_m = jcal_min(bound2, JCAL_BOUND_UNKNOWN_M);
+    const float open = open_information(h);
+    if (lengthen(h, g, noise, -open, longer)) {
+        v->bound1_m = lever_bound(&longer[0], point->r1, v->spread1_m, JCAL_BALL_SKIN1);
+    }
+    if (lengthen(h, g, -open, noise, longer)) {
+        v->bound2_m = lever_bound(&longer[3], point->r2, v->spread2_m, JCAL_BALL_SKIN2);
+    }
 }
 
 void jcal_ball_bound(jcal_ball_t *self, unsigned part)

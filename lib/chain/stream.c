@@ -170,6 +170,7 @@ static joint_news_t tell_apart(const jcal_center_t *joint, jcal_chain_place_t fi
     out->uncertainty_m[at] = r.uncertainty1_m;
     out->uncertainty_m[at + 1u] = r.uncertainty2_m;
     out->joint_status[at / 2u] = r.head.status;
+    out->misfit = jcal_max(out->misfit, r.misfit);
     const joint_news_t news = {r.head.status, r.head.hint, r.head.reason, r.has_center, r.head.t_us};
     return news;
 }

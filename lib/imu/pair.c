@@ -3,20 +3,9 @@
 /// Two sensors whose readings come in pairs. See imu/pair.h.
 #include "imu/pair.h"
 
+#include "imu/follow.h"
+
 #include <stddef.h>
-
-/// Readings further apart than this, us, have as many slices between them as fit.
-#define LONGEST_US 1000000u
-/// Most slices in one update.
-#define SLICES_MAX 16u
-
-/// Slices that may be done for a reading so long after the one before: those of a tick are spread over its readings.
-static unsigned slices_for(float slices_per_s, uint64_t dt_us)
-{
-    const float dt_s = (dt_us < LONGEST_US) ? ((float)(uint32_t)dt_us * 1e-6f) : 1.0f;
-    const float due = 1.0f + (0.9f * slices_per_s * dt_s); /* less: samples are not evenly apart */
-    return (due < (float)SLICES_MAX) ? (unsigned)due : SLICES_MAX;
-}
 
 jcal_status_t jcal_sensor_pair_init(jcal_sensor_pair_t *self, const jcal_gate_config_t *limits)
 {
@@ -31,18 +20,10 @@ jcal_status_t jcal_sensor_pair_init(jcal_sensor_pair_t *self, const jcal_gate_co
     return (status == JCAL_OK) ? jcal_sensor_init(&self->sensor2) : status;
 }
 
-/// True if orientations are better followed with this reading than without: what is clipped, or repeats the one before in place of a lost
-/// packet, is the best that is known of its moment, and a turn that is left out is lost.
-static bool may_be_followed(jcal_reject_t reject)
-{
-    return (reject == JCAL_REJECT_NONE) || (reject == JCAL_REJECT_SATURATED) || (reject == JCAL_REJECT_REPEATED) ||
-           (reject == JCAL_REJECT_GAP);
-}
-
 jcal_sensor_pair_step_t jcal_sensor_pair_push(jcal_sensor_pair_t *self, const jcal_pair_t *pair, float slices_per_s)
 {
     const jcal_reject_t reject = jcal_gate_check(&self->gate, &self->limits, pair);
-    if (!may_be_followed(reject) || !jcal_sensor_may_take(&pair->imu1) || !jcal_sensor_may_take(&pair->imu2)) {
+    if (!jcal_follow_may(reject) || !jcal_sensor_may_take(&pair->imu1) || !jcal_sensor_may_take(&pair->imu2)) {
         const jcal_sensor_pair_step_t nothing = {JCAL_REJECTED, false, 0u};
         return nothing; /* the gate does not look at the values of the first reading after a gap */
     }
@@ -52,7 +33,7 @@ jcal_sensor_pair_step_t jcal_sensor_pair_push(jcal_sensor_pair_t *self, const jc
     const jcal_status_t of2 = jcal_sensor_push(&self->sensor2, &reading2);
     const jcal_sensor_pair_step_t out = {(reject == JCAL_REJECT_NONE) ? JCAL_OK : JCAL_REJECTED,
                                          (of1 == JCAL_TICK) && (of2 == JCAL_TICK),
-                                         slices_for(slices_per_s, pair->t_us - self->last_us)};
+                                         jcal_follow_slices(slices_per_s, pair->t_us - self->last_us)};
     self->last_us = pair->t_us;
     return out;
 }

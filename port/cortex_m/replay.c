@@ -11,13 +11,14 @@
  * (a person's joint with two axes, in the same way),
  * REPLAY_SHOW_SLICES (a line before each step of it: which slice), REPLAY_AUTO (a hinge of either kind), REPLAY_WINDOW (window engine of the hinge, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
- * the stack before every call and print how deep the deepest one went). */
+ * the stack before every call and print how deep the deepest one went), REPLAY_LEG (hip and knee of a person, with their sensors' stages). */
 #include "jointcal/center.h"
 #include "jointcal/chain.h"
 #include "jointcal/functional.h"
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_auto.h"
 #include "jointcal/hinge_window.h"
+#include "jointcal/leg.h"
 #include "jointcal/sensor.h"
 #include "jointcal/two_axes.h"
 #include "jointcal/two_dof.h"
@@ -89,6 +90,21 @@ static jcal_status_t engine_init(void)
 {
     const jcal_chain_config_t config = jcal_chain_config_default();
     return jcal_chain_init(&replayed, &config);
+}
+#elif defined(REPLAY_LEG)
+typedef jcal_triple_t sample_t;
+typedef jcal_leg_result_t result_t;
+static jcal_leg_t replayed;
+#define engine_push jcal_leg_push
+#define engine_step jcal_leg_step
+#define engine_update jcal_leg_update
+#define engine_get jcal_leg_get
+#define has_axes has_joint[JCAL_LEG_KNEE]
+
+static jcal_status_t engine_init(void)
+{
+    const jcal_leg_config_t config = jcal_leg_config_default();
+    return jcal_leg_init(&replayed, &config, NULL);
 }
 #elif defined(REPLAY_SENSOR)
 typedef jcal_reading_t sample_t;
@@ -415,6 +431,15 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
     const float floats[] = {r->uncertainty_m[0],       r->uncertainty_m[1],      r->uncertainty_m[2],
                             r->uncertainty_m[3],       r->segment_length_m,      r->uncertainty_segment_m,
                             (float)r->joint_status[0], (float)r->joint_status[1]};
+#elif defined(REPLAY_LEG)
+static uint64_t hash_floats(uint64_t hash, const result_t *r)
+{
+    for (int k = 0; k < JCAL_CHAIN_PLACES; ++k) {
+        hash = hash_f32(hash_f32(hash_f32(hash, r->place_m[k].x), r->place_m[k].y), r->place_m[k].z);
+        hash = hash_u64(hash_f32(hash, r->uncertainty_m[k]), r->known[k] ? 1u : 0u, 4);
+    }
+    const float floats[] = {r->heading[0].heading_rad,     r->heading[1].heading_rad, r->uncertainty_heading_rad[0],
+                            r->uncertainty_heading_rad[1], r->segment_length_m,       r->uncertainty_segment_m};
 #elif defined(REPLAY_FUNCTIONAL)
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {

@@ -683,7 +683,7 @@ def ball_rows(sums: ball.Sums, past: ball.Past, point: ball.Point) -> dict[str, 
     full = ball.information(sums, past, point)
     rows["information"] = np.concatenate([packed(full[:6, :6]), full[:6, 6], full[:6, 7], packed(full[6:, 6:])])
     size = 8 if sums.blocks[1].motion_s > 0.0 else 7
-    known = full[:size, :size] + ball.LEVER_KNOWN * np.diag(np.arange(size) < 6)
+    known = full[:size, :size] + ball.open_information(full[:6, :6]) * np.diag(np.arange(size) < 6)
     rows["conditions"][1] = np.linalg.cond(known)
     left = np.eye(2)
     left[: size - 6, : size - 6] = np.linalg.inv(np.linalg.inv(known)[6:, 6:])

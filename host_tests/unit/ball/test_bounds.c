@@ -20,16 +20,20 @@ void tearDown(void)
 {
 }
 
-/* The whole information, with what is known of each component of a lever beforehand. */
+/* The whole information, with the share of its largest element about a lever that every direction of the levers is given. */
 static void information_of(const jcal_ball_t *joint, double h[N][N])
 {
     float levers[21];
     float coupling[12];
     float headings[3];
     jcal_ball_information(&joint->sums, &joint->past, &joint->point, levers, coupling, headings);
+    double largest = 0.0;
+    for (size_t i = 0; i < 6u; ++i) {
+        largest = fmax(largest, (double)levers[jcal_sym_at(i, i)]);
+    }
     for (size_t i = 0; i < 6u; ++i) {
         for (size_t k = 0; k < 6u; ++k) {
-            h[i][k] = (double)levers[jcal_sym_at(i, k)] + ((i == k) ? 1.0 : 0.0);
+            h[i][k] = (double)levers[jcal_sym_at(i, k)] + ((i == k) ? 1e-5 * largest : 0.0);
         }
         for (size_t b = 0; b < 2u; ++b) {
             h[i][6u + b] = h[6u + b][i] = (double)coupling[(6u * b) + i];

@@ -10,12 +10,16 @@
 
 #include <math.h>
 
+/* Misfit of the rigid chain from which on the segments are a person's: recordings of rigs leave at most 0.05, of people 0.2 and more. */
+#define PERSON_MISFIT 0.1f
+
 /* ---- Options ---- */
 
 enum { KEY_METHOD = OPTION_OWN, KEY_SMOOTHING, KEY_THIGH_LENGTH, KEY_CALIBRATION };
 
 typedef struct {
     jcal_chain_config_t config;
+    jcal_leg_config_t leg;
     const char *calibration; /* file with the axes of the knee; null if not given */
 } chain_options_t;
 
@@ -24,7 +28,7 @@ static const struct argp_option OPTIONS[] = {
      "As for 'jointcal center': ss (default), sa; for research ls, which needs orientations and is hardly ever ready",
      0},
     {"smoothing", KEY_SMOOTHING, "S", 0, "As for 'jointcal center', 0 to 2 (default 0.12)", 0},
-    {"thigh-length", KEY_THIGH_LENGTH, "M", 0, "Distance of hip and knee in metres, if it is known: 0.05 to 1", 0},
+    {"thigh-length", KEY_THIGH_LENGTH, "M", 0, "Distance of hip and knee in metres, if it is known: 0.1 to 1", 0},
     {"calibration", KEY_CALIBRATION, "FILE", 0,
      "The knee is a hinge with these axes: output of 'jointcal hinge --json' for thigh and shank. Its centre is then the point of the "
      "axis next to both sensors",
@@ -44,6 +48,7 @@ static error_t parse(int key, char *argument, struct argp_state *state, void *se
         return 0;
     case KEY_THIGH_LENGTH:
         options->config.segment_length_m = option_positive(state, "thigh-length", argument);
+        options->leg.thigh_length_m = options->config.segment_length_m;
         return 0;
     case KEY_CALIBRATION:
         options->calibration = argument;
@@ -55,16 +60,21 @@ static error_t parse(int key, char *argument, struct argp_state *state, void *se
 
 static void settle(struct argp_state *state, common_options_t *common, void *self)
 {
-    jcal_chain_config_t *config = &((chain_options_t *)self)->config;
+    chain_options_t *options = self;
+    jcal_chain_config_t *config = &options->config;
     config->center.memory_s = (common->window_s > 0.0f) ? common->window_s : config->center.memory_s;
     config->center.max_bound_m = (common->max_bound > 0.0f) ? common->max_bound : config->center.max_bound_m;
     common->max_bound = config->center.max_bound_m;
+    options->leg.max_lever_m = config->center.max_bound_m;
     const common_limit_t limits[] = {
-        {"segment_length_m", "thigh-length", config->segment_length_m, "a number of metres from 0.05 to 1"},
+        {"segment_length_m", "thigh-length", config->segment_length_m, "a number of metres from 0.1 to 1"},
+        {"thigh_length_m", "thigh-length", options->leg.thigh_length_m, "a number of metres from 0.1 to 1"},
         {"memory_s", "window", config->center.memory_s, "a number of seconds from 10 to 3600"},
         {"smoothing_s", "smoothing", config->center.kinematics.smoothing_s, "a number of seconds from 0 to 2"},
         {"max_bound_m", "max-bound", config->center.max_bound_m, "a number of metres from 0.001 to 0.1"}};
-    common_check(state, jcal_chain_config_check(config), limits, sizeof limits / sizeof limits[0]);
+    const char *wrong = jcal_chain_config_check(config);
+    common_check(state, (wrong != NULL) ? wrong : jcal_leg_config_check(&options->leg), limits,
+                 sizeof limits / sizeof limits[0]);
 }
 
 static const command_line_t LINE = {
@@ -75,6 +85,9 @@ static const command_line_t LINE = {
         "The recording is as for 'jointcal hinge', with gyr3_x ... acc3_z besides. Results are the vectors from each joint's centre to "
         "the sensors beside it, in the sensor's frame, and the distance of both centres. Orientations for --method ls are taken "
         "from the columns q1_w ... q3_z or computed.\n"
+        "\n"
+        "On rigid segments the vectors are exact (model rigid). On a person skin moves with the sensors: then each is found as well as that "
+        "allows (model functional), and its bound says how well, some centimetres. --thigh-length makes them smaller.\n"
         "\n" COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] = {.help = "How to compute: stream (default). The chain has no other engine",
@@ -96,20 +109,34 @@ static const command_line_t LINE = {
     .settle = settle,
 };
 
-/* ---- The engine ---- */
+/* ---- The engines ---- */
+
+/* What is told, of whichever model speaks. */
+typedef struct {
+    jcal_head_t head;
+    jcal_model_t model;
+    bool has_joint[JCAL_LEG_JOINTS];
+    jcal_vec3_t place_m[JCAL_CHAIN_PLACES];
+    float uncertainty_m[JCAL_CHAIN_PLACES];
+    float segment_length_m;
+    float uncertainty_segment_m;
+} told_t;
 
 typedef struct {
     calibrate_state_t base;
     jcal_chain_t chain;
-    jcal_chain_result_t result;
+    jcal_leg_t leg;
+    bool had_moved; /* the rigid model */
+    told_t told;
 } chain_run_t;
 
 static bool start(void *self, const void *options)
 {
     chain_run_t *run = self;
-    const jcal_chain_config_t *config = &((const chain_options_t *)options)->config;
-    run->base.oriented = config->center.method == JCAL_CENTER_LS;
-    return jcal_chain_init(&run->chain, config) == JCAL_OK;
+    const chain_options_t *given = options;
+    run->base.oriented = given->config.center.method == JCAL_CENTER_LS;
+    return jcal_chain_init(&run->chain, &given->config) == JCAL_OK &&
+           jcal_leg_init(&run->leg, &given->leg, &given->config.center.gate) == JCAL_OK;
 }
 
 static bool push(void *self, const recording_row_t *row, uint64_t t_us)
@@ -118,20 +145,103 @@ static bool push(void *self, const recording_row_t *row, uint64_t t_us)
     const jcal_triple_t triple = {t_us, row->imu1, row->imu2, row->imu3};
     const jcal_triple_attitudes_t attitudes = {row->q1, row->q2, row->q3};
     return jcal_chain_push(&run->chain, &triple, run->base.oriented ? &attitudes : NULL) >= JCAL_OK &&
-           jcal_chain_step(&run->chain) >= JCAL_OK;
+           jcal_chain_step(&run->chain) >= JCAL_OK && jcal_leg_update(&run->leg, &triple) >= JCAL_OK;
 }
 
 static void reset(void *self)
 {
     chain_run_t *run = self;
-    (void)jcal_chain_reset(&run->chain);
+    (void)jcal_chain_reset(&run->chain); /* orientations that begin anew are nothing to the leg, which has its own */
+}
+
+/* On a person the rigid chain's levers shrink, and its bounds do not hold: none is told. */
+static bool is_person(const jcal_chain_result_t *rigid)
+{
+    return rigid->misfit > PERSON_MISFIT;
+}
+
+static told_t tell_rigid(const jcal_chain_result_t *rigid)
+{
+    const bool holds = !is_person(rigid);
+    told_t told = {.head = rigid->head,
+                   .model = JCAL_MODEL_RIGID,
+                   .has_joint = {rigid->has_places, rigid->has_places},
+                   .segment_length_m = rigid->segment_length_m,
+                   .uncertainty_segment_m = holds ? rigid->uncertainty_segment_m : JCAL_BOUND_UNKNOWN_M};
+    for (int k = 0; k < JCAL_CHAIN_PLACES; k++) {
+        told.place_m[k] = rigid->place_m[k];
+        told.uncertainty_m[k] = holds ? rigid->uncertainty_m[k] : JCAL_BOUND_UNKNOWN_M;
+    }
+    return told;
+}
+
+static told_t tell_functional(const jcal_leg_result_t *leg)
+{
+    told_t told = {.head = leg->head,
+                   .model = JCAL_MODEL_FUNCTIONAL,
+                   .has_joint = {leg->has_joint[JCAL_LEG_HIP], leg->has_joint[JCAL_LEG_KNEE]},
+                   .segment_length_m = leg->segment_length_m,
+                   .uncertainty_segment_m = leg->uncertainty_segment_m};
+    for (int k = 0; k < JCAL_CHAIN_PLACES; k++) {
+        told.place_m[k] = leg->place_m[k];
+        told.uncertainty_m[k] = leg->uncertainty_m[k];
+    }
+    return told;
+}
+
+/* The largest of the four bounds, and their sum. */
+static void measure(const told_t *told, bool sound, float *largest, float *sum)
+{
+    *largest = 0.0f;
+    *sum = 0.0f;
+    for (int k = 0; k < JCAL_CHAIN_PLACES; k++) {
+        const float bound = (sound && told->has_joint[k / 2]) ? told->uncertainty_m[k] : JCAL_BOUND_UNKNOWN_M;
+        *largest = fmaxf(*largest, bound);
+        *sum += bound;
+    }
+}
+
+/* True if the functional model is the one to speak. The rigid one is exact where it is ready, and where segments are rigid and it says that
+   the given length does not fit, it does not; on a person it is not believed. Else the model speaks that knows all four vectors better;
+   where neither knows all, the one that knows the others. Where more speaks against the rigid one than the size of its bounds, those do
+   not count; the functional one tells none then. */
+static bool functional_speaks(const told_t *rigid, bool person, const told_t *functional)
+{
+    if (!person && rigid->head.reason == JCAL_REASON_DOES_NOT_FIT) {
+        return false;
+    }
+    if (rigid->head.status == JCAL_READY || functional->head.status == JCAL_READY) {
+        return person || rigid->head.status != JCAL_READY;
+    }
+    float largest[2];
+    float sum[2];
+    measure(rigid, rigid->head.reason == JCAL_REASON_UNCERTAIN, &largest[0], &sum[0]);
+    measure(functional, true, &largest[1], &sum[1]);
+    return largest[1] < largest[0] || (largest[1] == largest[0] && sum[1] < sum[0]);
 }
 
 static const jcal_head_t *get(void *self)
 {
     chain_run_t *run = self;
-    (void)jcal_chain_get(&run->chain, &run->result); /* the only error is a null pointer */
-    return &run->result.head;
+    jcal_chain_result_t chain;
+    jcal_leg_result_t leg;
+    (void)jcal_chain_get(&run->chain, &chain); /* the only error is a null pointer */
+    const bool has_moved = chain.head.status == JCAL_MOVED;
+    if (has_moved && !run->had_moved) {
+        (void)jcal_leg_reset(&run->leg); /* what it learnt is of the sensors as they sat before */
+    }
+    run->had_moved = has_moved;
+    (void)jcal_leg_get(&run->leg, &leg);
+    const told_t rigid = tell_rigid(&chain);
+    const told_t functional = tell_functional(&leg);
+    run->told = functional_speaks(&rigid, is_person(&chain), &functional) ? functional : rigid;
+    /* Both have counted the same rows. */
+    run->told.head.samples = chain.head.samples;
+    run->told.head.rejected = chain.head.rejected;
+    for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
+        run->told.head.rejected_by[k] = chain.head.rejected_by[k];
+    }
+    return &run->told.head;
 }
 
 /* ---- What is written ---- */
@@ -145,6 +255,9 @@ static const report_words_t WORDS = {
     .move_joint = "turn both segments of that joint about all axes, briskly",
     .asked_for = "both centres from all sensors",
     .bounded = "hip and knee",
+    .centers = {"centre of the hip", "centre of the knee"},
+    .turn = {{"turn the pelvis, about all axes", "turn the thigh, about all axes"},
+             {"turn the thigh, about all axes", "turn the shank, about all axes"}},
     .unit = "mm",
     .per_unit = MM_PER_M,
     .unknown = JCAL_BOUND_UNKNOWN_M,
@@ -155,46 +268,73 @@ static const char *const KEYS[JCAL_CHAIN_PLACES] = {"hip_to_pelvis_m", "hip_to_t
 static const char *const LABELS[JCAL_CHAIN_PLACES] = {"hip to pelvis", "hip to thigh", "knee to thigh",
                                                       "knee to shank"};
 
+static bool has_all(const told_t *told)
+{
+    return told->has_joint[0] && told->has_joint[1];
+}
+
 /* The larger bound of each joint. */
 static report_bounds_t bounds(const void *self)
 {
-    const jcal_chain_result_t *result = &((const chain_run_t *)self)->result;
-    const float *bound = result->uncertainty_m;
-    return (report_bounds_t){result->has_places, fmaxf(bound[0], bound[1]), fmaxf(bound[2], bound[3])};
+    const told_t *told = &((const chain_run_t *)self)->told;
+    const float *bound = told->uncertainty_m;
+    return (report_bounds_t){has_all(told), fmaxf(bound[0], bound[1]), fmaxf(bound[2], bound[3])};
+}
+
+static float bound_or_nan(bool known, float bound_m)
+{
+    return (known && bound_m < JCAL_BOUND_UNKNOWN_M) ? bound_m : NAN;
 }
 
 static void write_json(const void *self, json_t *json)
 {
-    const jcal_chain_result_t *result = &((const chain_run_t *)self)->result;
+    const told_t *told = &((const chain_run_t *)self)->told;
+    const bool any = told->has_joint[0] || told->has_joint[1];
+    float told_bounds[JCAL_CHAIN_PLACES];
     bool bounded = false;
     for (int k = 0; k < JCAL_CHAIN_PLACES; k++) {
-        report_json_vector(json, KEYS[k], result->has_places, result->place_m[k]);
-        bounded = bounded || (result->has_places && result->uncertainty_m[k] < JCAL_BOUND_UNKNOWN_M);
+        report_json_vector(json, KEYS[k], told->has_joint[k / 2], told->place_m[k]);
+        told_bounds[k] = bound_or_nan(told->has_joint[k / 2], told->uncertainty_m[k]);
+        bounded = bounded || !isnan(told_bounds[k]);
     }
-    json_numbers(json, "uncertainty_m", bounded, result->uncertainty_m, JCAL_CHAIN_PLACES);
-    json_number(json, "segment_length_m", result->has_places ? result->segment_length_m : NAN);
-    json_number(json, "uncertainty_segment_m",
-                (result->has_places && result->uncertainty_segment_m < JCAL_BOUND_UNKNOWN_M)
-                    ? result->uncertainty_segment_m
-                    : NAN);
+    json_numbers(json, "uncertainty_m", bounded, told_bounds, JCAL_CHAIN_PLACES);
+    json_number(json, "segment_length_m", has_all(told) ? told->segment_length_m : NAN);
+    json_number(json, "uncertainty_segment_m", bound_or_nan(has_all(told), told->uncertainty_segment_m));
+    json_word(json, "model", any ? jcal_model_string(told->model) : NULL);
 }
 
-static void print_places(FILE *file, const jcal_chain_result_t *result)
+static void print_places(FILE *file, const told_t *told)
 {
     for (int k = 0; k < JCAL_CHAIN_PLACES; k++) {
-        report_print_place(file, LABELS[k], result->place_m[k], result->uncertainty_m[k]);
+        if (told->has_joint[k / 2]) {
+            report_print_place(file, LABELS[k], told->place_m[k], told->uncertainty_m[k]);
+        } else {
+            report_print_words(file, LABELS[k], "unknown");
+        }
     }
-    (void)fprintf(file, "  %-18s %8.1f mm                     ", "from hip to knee",
-                  (double)(MM_PER_M * result->segment_length_m));
-    report_print_bound_mm(file, result->uncertainty_segment_m);
+    if (has_all(told)) {
+        (void)fprintf(file, "  %-18s %8.1f mm                     ", "from hip to knee",
+                      (double)(MM_PER_M * told->segment_length_m));
+        report_print_bound_mm(file, told->uncertainty_segment_m);
+    }
+}
+
+static void print_model(FILE *file, const told_t *told)
+{
+    if (told->model == JCAL_MODEL_FUNCTIONAL) {
+        report_print_words(
+            file, "model",
+            "functional: the segments are not rigid, as on a person; what skin may hide is in the bounds");
+    }
 }
 
 static void print_summary(const void *self, FILE *file, const report_t *report)
 {
-    const jcal_chain_result_t *result = &((const chain_run_t *)self)->result;
+    const told_t *told = &((const chain_run_t *)self)->told;
     report_print_head(file, report);
-    if (result->has_places) {
-        print_places(file, result);
+    if (told->has_joint[0] || told->has_joint[1]) {
+        print_places(file, told);
+        print_model(file, told);
     } else {
         report_print_words(file, "places", "unknown");
     }
@@ -220,7 +360,7 @@ static const calibrate_joint_t CHAIN = {.words = &WORDS,
 int chain_command(int argc, char **argv)
 {
     common_options_t common = {0};
-    chain_options_t options = {.config = jcal_chain_config_default()};
+    chain_options_t options = {.config = jcal_chain_config_default(), .leg = jcal_leg_config_default()};
     common_parse(&LINE, argc, argv, &common, &options);
     if (!calibration_axes(options.calibration, &options.config.knee_axis2, &options.config.knee_axis3)) {
         return EXIT_INPUT;

@@ -20,6 +20,8 @@ typedef struct {
     const char *move_joint;  ///< How to move the joint.
     const char *asked_for;   ///< What must be known to within the bound: "both axes".
     const char *bounded;     ///< What the two bounds of an event are of: "axes".
+    const char *centers[2];  ///< What JCAL_WEAK_CENTER1 and _CENTER2 are, where they are of two joints; else null.
+    const char *turn[2][2];  ///< With these: how to turn the proximal and the distal segment of each.
     const char *unit;        ///< Of bounds as a person reads them ...
     float per_unit;          ///< ... and how many of it make a rad or a metre.
     float unknown;           ///< Bounds from here on say nothing, rad or m.

@@ -116,15 +116,25 @@ const char *report_reason(const report_t *report)
     }
 }
 
+/* How to turn a segment, 0 the proximal and 1 the distal one, of the joint that is known worst. */
+static const char *turn_words(const report_t *report, int segment)
+{
+    static const char *const usual[2] = {"turn the proximal segment, the one with sensor 1",
+                                         "turn the distal segment, the one with sensor 2"};
+    const jcal_weak_t weak = report->head.weak;
+    const bool has_own = report->words->centers[0] != NULL && (weak == JCAL_WEAK_CENTER1 || weak == JCAL_WEAK_CENTER2);
+    return has_own ? report->words->turn[weak == JCAL_WEAK_CENTER2][segment] : usual[segment];
+}
+
 const char *report_help(const report_t *report)
 {
     switch (report->head.hint) {
     case JCAL_HINT_MOVE_JOINT:
         return report->words->move_joint;
     case JCAL_HINT_MOVE_SEGMENT1:
-        return "turn the proximal segment, the one with sensor 1";
+        return turn_words(report, 0);
     case JCAL_HINT_MOVE_SEGMENT2:
-        return "turn the distal segment, the one with sensor 2";
+        return turn_words(report, 1);
     case JCAL_HINT_TILT_AXIS:
         return "tilt the joint axis out of the horizontal";
     case JCAL_HINT_CHECK_SENSORS:
@@ -143,8 +153,11 @@ const char *report_help(const report_t *report)
     }
 }
 
-static const char *weak_words(jcal_weak_t weak)
+static const char *weak_words(const report_words_t *words, jcal_weak_t weak)
 {
+    if (words->centers[0] != NULL && (weak == JCAL_WEAK_CENTER1 || weak == JCAL_WEAK_CENTER2)) {
+        return words->centers[weak == JCAL_WEAK_CENTER2];
+    }
     switch (weak) {
     case JCAL_WEAK_AXIS1:
         return "axis in sensor 1";
@@ -307,7 +320,7 @@ void report_print_state(FILE *file, const report_t *report)
     const jcal_head_t *head = &report->head;
     (void)fprintf(file, "  %-18s %s to within %.3g %s (95 %% confidence)\n", "asked for", report->words->asked_for,
                   readable(report, report->max_bound), report->words->unit);
-    report_print_words(file, "weakest", weak_words(head->weak));
+    report_print_words(file, "weakest", weak_words(report->words, head->weak));
     print_help(file, report);
     print_ready_time(file, report);
     report_print_samples(file, head->samples, head->rejected, head->rejected_by);

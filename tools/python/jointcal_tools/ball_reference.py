@@ -40,7 +40,7 @@ UNKNOWN_M, UNKNOWN = 10.0, np.pi / 2.0
 LEVER_FLOOR_M, LEVER_SHARE = 0.003, 0.5
 SKIN = (0.17, 0.10)  # share of a lever that no IMU can see: skin that goes along with its own segment, proximal, distal
 HEADING_SHARE = 2.0
-LEVER_KNOWN = 1.0  # 1/m^2, of each component of a lever beforehand
+OPEN_SHARE, OPEN_VARIANCE = 1e-5, 0.5  # of the largest diagonal element, to every direction of the levers; what it alone leaves is no knowledge
 
 AGREED_MIN = 3
 GRAVITY_OFF_MAX, MOTION_MIN_S, LACK_MAX, STIFFNESS_MIN, SPEED_NOISE2 = 0.6, 3.0, 0.05, 0.07, 2e-4
@@ -188,9 +188,31 @@ def information(sums: Sums, past: Past, point: Point) -> np.ndarray:
     return np.block([[l * h, q], [q.T, k]])
 
 
+def open_information(h: np.ndarray) -> float:
+    """What every direction of an information about both levers (6, 6) is given."""
+    return OPEN_SHARE * float(np.max(np.diag(h)))
+
+
+def longer_levers(h: np.ndarray, g: np.ndarray, noise: float) -> list[np.ndarray | None]:
+    """Each lever (3,), were `noise` of the information that of errors of the regressors: of both, else of one and none of the other."""
+
+    def solved(own: np.ndarray) -> np.ndarray | None:
+        less = h + np.diag(own)
+        return np.linalg.solve(less, g) if np.linalg.eigvalsh(less)[0] > 0.0 else None
+
+    both = solved(np.full(6, -noise))
+    if both is not None:
+        return [both[:3], both[3:]]
+    rest = open_information(h)
+    first, second = solved(np.repeat([-noise, rest], 3)), solved(np.repeat([rest, -noise], 3))
+    return [None if first is None else first[:3], None if second is None else second[3:]]
+
+
 def bounds(sums: Sums, past: Past, point: Point) -> tuple[np.ndarray, float]:
     """(2,) 95 % bounds of the levers, m, and of the heading of the open block, rad."""
-    full = information(sums, past, point) + LEVER_KNOWN * np.diag([1.0] * 6 + [0.0] * 2)
+    full = information(sums, past, point)
+    rest = open_information(full[:6, :6])
+    full = full + rest * np.diag([1.0] * 6 + [0.0] * 2)
     has_closed = sums.blocks[1].motion_s > 0.0
     full = full if has_closed else np.delete(np.delete(full, 7, 0), 7, 1)
     if np.linalg.eigvalsh(full)[0] <= 0.0:
@@ -198,14 +220,13 @@ def bounds(sums: Sums, past: Past, point: Point) -> tuple[np.ndarray, float]:
     p = np.linalg.inv(full)
     heading = min(HEADING_SHARE * float(np.sqrt(p[6, 6])), UNKNOWN)
     h, g = sums.normal(sums.cross(point.heading))
-    noise = 0.5 * point.lack / max(float(point.r @ point.r), 1e-9)  # errors of the regressors shorten the levers
-    if np.linalg.eigvalsh(h)[0] <= noise:
-        return np.full(2, UNKNOWN_M), heading
-    short = np.linalg.solve(h - noise * np.eye(6), g) - np.linalg.solve(h, g)
+    noise = 0.5 * point.lack / max(float(point.r @ point.r), 1e-6)
     found = []
-    for k, part in enumerate((slice(0, 3), slice(3, 6))):
-        widest = np.sqrt(np.linalg.eigvalsh(p[part, part])[-1])
-        found.append(LEVER_FLOOR_M + LEVER_SHARE * widest + np.linalg.norm(short[part]) + SKIN[k] * np.linalg.norm(point.r[part]))
+    for part, longer, skin in zip((slice(0, 3), slice(3, 6)), longer_levers(h, g, noise), SKIN, strict=True):
+        widest = float(np.linalg.eigvalsh(p[part, part])[-1])
+        r = point.r[part]
+        known = longer is not None and widest * rest < OPEN_VARIANCE
+        found.append(LEVER_FLOOR_M + LEVER_SHARE * np.sqrt(widest) + np.linalg.norm(longer - r) + skin * np.linalg.norm(r) if known else UNKNOWN_M)
     return np.minimum(found, UNKNOWN_M), heading
 
 

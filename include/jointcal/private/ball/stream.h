@@ -46,6 +46,7 @@ typedef struct {
 typedef struct {
     float factor[21];    ///< Of the information about both levers, on its way (6 x 6, packed Cholesky factor).
     float coupling[12];  ///< That information's inverse times its coupling to both headings (2 x 6).
+    float open;          ///< What was added to it in all directions, so that one that nothing tells of spoils no other.
     float left[3];       ///< Information about both headings once the levers have taken their share (2 x 2, packed).
     float spread1_m, spread2_m;  ///< Half of the standard deviations of the levers, on their way.
     float bound1_m, bound2_m;    ///< 95 % bounds of the levers.
