@@ -152,6 +152,35 @@ static void nothing_is_known_where_the_cost_bends_down(void)
     TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, joint->verdict.bound2_m);
 }
 
+/* One of the two headings the wrong way round: as soon as the whole has a direction in which the cost bends down, nothing is told. */
+static void one_heading_that_is_wrong_spoils_all(void)
+{
+    const hinge_t arm = arm_usual();
+    run_begin(&run, &arm, NULL);
+    run_for(&run, 8.5);
+    jcal_ball_t *const joint = &run.joint;
+    const jcal_ball_point_t best = joint->point;
+    int spoilt = 0;
+    for (unsigned n = 1u; n < 16u; ++n) {
+        const size_t b = n % 2u;
+        joint->point = best;
+        jcal_ball_turn(&joint->point, 1u + (n / 2u));
+        joint->point.heading[1u - b] = best.heading[1u - b];
+        joint->point.r1 = jcal_vec3_scale(best.r1, 4.0f); /* and levers as wrong, so that ties do not hold it */
+        joint->point.r2 = jcal_vec3_scale(best.r2, 4.0f);
+        double h[N][N];
+        information_of(joint, h);
+        bound_all(joint);
+        if (!invert(h)) {
+            ++spoilt;
+            TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, joint->verdict.heading_rad);
+            TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, joint->verdict.bound1_m);
+            TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, joint->verdict.bound2_m);
+        }
+    }
+    TEST_ASSERT_TRUE(spoilt > 3);
+}
+
 /* A joint that bends about one line has a heading, while its centre is open along that line. */
 static void a_hinge_has_a_heading_and_no_centre(void)
 {
@@ -170,6 +199,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(bounds_are_those_of_the_whole);
     RUN_TEST(nothing_is_known_where_the_cost_bends_down);
+    RUN_TEST(one_heading_that_is_wrong_spoils_all);
     RUN_TEST(a_hinge_has_a_heading_and_no_centre);
     return UNITY_END();
 }
