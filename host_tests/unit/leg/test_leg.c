@@ -10,13 +10,14 @@
 #include <string.h>
 #include <unity.h>
 
+/* Shorter: everything is known after six seconds already; what the longer time adds is other motions, and sums that were merged. */
 #ifdef JCAL_TEST_SHORT
 #define SEEDS 1
+#define RUN_S 9.0
 #else
 #define SEEDS 6
-#endif
-
 #define RUN_S 30.0
+#endif
 
 /// Shares of a lever that skin may hide, of the proximal and of the distal sensor of a joint: docs/METHOD_PEOPLE.md, section 13.
 static const double SKIN[JCAL_CHAIN_PLACES] = {0.17, 0.10, 0.17, 0.10};
@@ -347,19 +348,19 @@ static void sensors_stay_in_step_when_one_refuses_the_first_reading_after_a_gap(
         chain_motion_t m = leg_lively(0);
         m.hip.rate_hz = 200.0;
         setUp();
-        run(&m, 0.0, 4.0);
-        uint32_t k = sample_at(&m, 5.0);
+        run(&m, 0.0, 1.0);
+        uint32_t k = sample_at(&m, 2.0);
         const uint32_t ticks = leg.joint[0].ticks.count;
         jcal_triple_t triple = leg_sample(&m, k);
         jcal_imu_t *const imus[3] = {&triple.imu1, &triple.imu2, &triple.imu3};
         imus[sensor - 1]->gyr_rad_s.x = 250.0f;
         TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_leg_update(&leg, &triple));
-        for (uint32_t end = k + 800u; k < end;) {
+        for (uint32_t end = k + 400u; k < end;) {
             triple = leg_sample(&m, ++k);
             (void)jcal_leg_update(&leg, &triple);
         }
-        TEST_ASSERT_TRUE(leg.joint[0].ticks.count > ticks + 60u); /* 80 in 4 s, less those of the beginning */
-        TEST_ASSERT_TRUE(leg.joint[1].ticks.count > ticks + 60u);
+        TEST_ASSERT_TRUE(leg.joint[0].ticks.count > ticks + 30u); /* 40 in 2 s, less those of the beginning */
+        TEST_ASSERT_TRUE(leg.joint[1].ticks.count > ticks + 30u);
     }
 }
 
@@ -397,7 +398,7 @@ static void a_reading_that_one_gate_refuses_is_followed_by_none(void)
         TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_leg_update(&leg, &triple));
         TEST_ASSERT_EQUAL_UINT32(1u, result().head.rejected_by[JCAL_REJECT_OUT_OF_RANGE]);
         for (int i = 0; i < 3; ++i) {
-            TEST_ASSERT_EQUAL_UINT64(before_us, leg.sensor[i].last_us);
+            TEST_ASSERT_TRUE(before_us == leg.sensor[i].last_us);
         }
     }
 }
@@ -413,7 +414,7 @@ static void a_repeated_reading_is_counted_and_followed(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_leg_update(&leg, &triple));
     TEST_ASSERT_EQUAL_UINT32(1u, result().head.rejected_by[JCAL_REJECT_REPEATED]);
     for (int i = 0; i < 3; ++i) {
-        TEST_ASSERT_EQUAL_UINT64(triple.t_us, leg.sensor[i].last_us);
+        TEST_ASSERT_TRUE(triple.t_us == leg.sensor[i].last_us);
     }
 }
 
@@ -613,8 +614,8 @@ static void an_update_does_what_is_due_for_both_joints(void)
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_leg_update(&leg, &triple));
     TEST_ASSERT_EQUAL_FLOAT(by_hand.joint[0].credit, leg.joint[0].credit);
     TEST_ASSERT_EQUAL_FLOAT(by_hand.joint[1].credit, leg.joint[1].credit);
-    TEST_ASSERT_EQUAL_UINT64(triple.t_us, leg.last_us);
-    TEST_ASSERT_EQUAL_UINT64(leg.joint[0].ticks.last_us, result().head.t_us);
+    TEST_ASSERT_TRUE(triple.t_us == leg.last_us);
+    TEST_ASSERT_TRUE(leg.joint[0].ticks.last_us == result().head.t_us);
 }
 
 /* What is known may become worse by a fifth before it is not any more. */
