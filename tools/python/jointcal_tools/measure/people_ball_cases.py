@@ -17,14 +17,14 @@ import numpy as np
 from .. import native_two_axes as two_axes
 from ..recordings import Recording
 from ..simulate_people import main_axes
+from . import optical
 from . import people_faults as faults
 from .faults import choose
-from .judge import available, cut
-from .people_ball import ITEMS, NONE, Truth, at_ticks, axis_truth, lab_quaternions, lever_truth, true_heading_deg
-from .people_faults import HINGE_RIGS, KNOWN_AXES, RIGS, PeopleCase, known_axes
+from .judge import available, cut, recording
+from .people_ball import NONE, Truth, at_ticks, axis_truth, lab_quaternions, lever_truth, true_heading_deg
+from .people_faults import HINGE_RIGS, KNOWN_AXES, PeopleCase, known_axes
 from .people_flexion import wrapped_deg
 from .people_joints import JOINTS, people_joint, sensor_signals
-from .judge import recording
 
 NEVER, BEYOND_BOUND = "never", "beyond"
 RULES: dict[str, tuple[str, ...]] = {  # of ITEMS
@@ -34,7 +34,9 @@ RULES: dict[str, tuple[str, ...]] = {  # of ITEMS
     "ball": (*(BEYOND_BOUND,) * 3, NEVER, NEVER),
     "two axes": (BEYOND_BOUND,) * 5,
 }
-NO_JOINT = ("other_shank", "other_shank_simulated", "both_thighs", "same_segment", "splint", "stiff_copy", "stiff_vibration", "stiff_straps")
+STIFF = ("same_segment", "stiff_copy", "stiff_vibration", "stiff_straps")
+NO_JOINT = ("other_shank", "other_shank_simulated", "both_thighs", "splint", *STIFF)
+STIFF_SLACK_DEG = 5.0  # skin and straps rock by as much
 HINGES = ("seated_swing", *(name for name in faults.FAULTS if name.startswith("late_")))
 
 
@@ -163,15 +165,11 @@ def passage_truth(case: PeopleCase, track: two_axes.Track) -> Truth:
     heading = None
     if lab is not None:
         index, late_s = case.late or (0, 0.0)
-        shift = round(late_s * people_rate_hz(case.name))
+        shift = round(late_s * faults.whole(case.name).rate_hz)
         begins = [case.begin + (0 if k == index else shift) for k in range(2)]
         heading = true_heading_deg((track.q1, track.q2), tuple(q[b: b + count] for q, b in zip(lab, begins, strict=True)))
     axes = (known_axes(case.name)[0], None) if case.name in KNOWN_AXES else axis_truth(case.name)
     return Truth(heading, lever_truth(case.name), axes)
-
-
-def people_rate_hz(name: str) -> float:
-    return faults.whole(name).rate_hz
 
 
 def chained_heading(case: PeopleCase, count: int) -> Judged:
@@ -185,22 +183,26 @@ def chained_heading(case: PeopleCase, count: int) -> Judged:
     return Judged(Truth(wrapped_deg(total)), slack)
 
 
+def stiff_heading(case: PeopleCase, track: two_axes.Track) -> Judged:
+    """Of two sensors of one body: R_2 = R_1 T with one rotation T, from their rates."""
+    turn = optical.from_matrix(optical.turn_between(case.rec.gyr2, case.rec.gyr1))
+    lab = track.q1, optical.multiply(track.q1, turn[None, :])
+    return Judged(Truth(true_heading_deg((track.q1, track.q2), lab)), np.full(len(track.q1), STIFF_SLACK_DEG))
+
+
 def judged(name: str, case: PeopleCase, track: two_axes.Track) -> Judged:
     """What is known of a case, as far as its rule wants it."""
     rule = CLASSES[name].rule
-    if name == "pelvis_shank":
-        return chained_heading(case, len(track.q1))
     if rule == "unrelated":
         return Judged(Truth())
-    if case.person is not None and not (rule == "no joint" and case.person.gyr1.shape != case.rec.gyr1.shape):
+    if name == "pelvis_shank":
+        return chained_heading(case, len(track.q1))
+    if name in STIFF:
+        return stiff_heading(case, track)
+    truth = Truth()  # none of two legs
+    if case.person is not None:
         truth = simulated_truth(case, track)
-    elif case.name in RIGS or case.name in JOINTS and name not in NO_JOINT:
+    elif case.name:
         truth = passage_truth(case, track)
-    else:
-        truth = Truth()
-    if rule == "no joint":  # one that is not there has no levers and no axes
-        truth = replace(truth, levers=NONE, axes=NONE)
-    return Judged(truth)
-
-
-__all__ = ["CLASSES", "ITEMS", "RULES", "ball_case", "counts", "here", "judged"]
+    # A joint that is not there has no levers and no axes.
+    return Judged(replace(truth, levers=NONE, axes=NONE) if rule == "no joint" else truth)
