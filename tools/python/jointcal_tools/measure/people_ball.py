@@ -14,6 +14,7 @@ import numpy as np
 from ..native_two_axes import Track
 from ..recordings import Recording
 from . import optical
+from .harness import Report
 from .judge import data_folder, line_angle_deg, recording
 from .people_flexion import wrapped_deg
 from .people_joints import JOINTS, people_joint
@@ -87,6 +88,25 @@ def at_ticks(values: np.ndarray, ticks: np.ndarray, count: int) -> np.ndarray:
     held = np.asarray(values, float)[np.maximum(last, 0)] if len(ticks) else np.full((count, *np.shape(values)[1:]), np.nan)
     held[last < 0] = np.nan
     return held
+
+
+Known = tuple[float, str]  # what is reached where a requirement is not met, as a share, and why
+
+
+def require_share(report: Report, text: str, hits: int, total: int, minimum: float, known_why: Known | None = None) -> None:
+    """As Report.require_share; `known_why` is no longer one if less than its share is reached."""
+    if total == 0:
+        return
+    report.require_share(text, hits, total, minimum)
+    if known_why and hits >= known_why[0] * total:
+        report.requirements[-1].known = known_why[1]
+
+
+def require_none(report: Report, text: str, count: int, total: int, known_why: Known | None = None) -> None:
+    """As Report.require_none; `known_why` is no longer one if more than its share, or one, happen."""
+    report.require_none(text, count, total)
+    if known_why and count <= max(known_why[0] * total, 1.0):
+        report.requirements[-1].known = known_why[1]
 
 
 def whole(name: str) -> Recording:

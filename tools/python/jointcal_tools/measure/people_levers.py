@@ -22,6 +22,8 @@ PARTS_S = (20.0, 33.0)
 LEVERS_APART_MM, AXES_APART_DEG = 20.0, 10.0  # in the median
 AGREE = 0.95
 SHARPEST = 3.0  # bound over scatter
+SCATTER_PARTS = 3  # at least, or the scatter is chance
+COMMON = "More than half of the bound is for what all parts have in common"
 NORMAL_95 = 1.96
 SKIN = (0.17, 0.10)  # of the levers, within their bounds, for skin that goes along with its segment: the same in every part
 
@@ -38,8 +40,13 @@ class Estimate:
     axes: tuple[np.ndarray, np.ndarray]
     bounds: np.ndarray  # (5,)
     known: np.ndarray  # (5,) at the end
-    ever: np.ndarray  # (5,)
     reason: str
+    left: float  # of the centre's motion, as a share
+
+    @property
+    def is_there(self) -> bool:
+        """Not if nothing moved."""
+        return bool(np.any(self.r[0]) and np.any(self.r[1]))
 
     def value(self, item: int) -> np.ndarray:
         return self.r[LEVERS.index(item)] if item in LEVERS else self.axes[AXES.index(item)]
@@ -63,7 +70,8 @@ def measure_part(job: tuple[str, float, int, int, bool]) -> Estimate | None:
     track = two_axes.run(cut(rec, before, end), begin=begin - before)
     flags = known(track) & (track.sample >= begin - before)[:, None]
     return Estimate(name, length_s, warm, float(rec.t_s[begin] - rec.t_s[0]), (track.r1[-1], track.r2[-1]), (track.axis1[-1], track.axis2[-1]),
-                    bounds(track)[-1], flags[-1], flags.any(axis=0), two_axes.reason_name(track.reason[-1]))
+                    bounds(track)[-1], flags[-1], two_axes.reason_name(track.reason[-1]),
+                    float(track.left[-1] / max(track.speed2[-1], 1e-9)))
 
 
 # A thigh.
@@ -78,6 +86,7 @@ class Thigh:
     bound_m: float
     known: bool  # both levers, at the end
     stated: bool  # both state a bound
+    left: tuple[float, float]  # of hip and knee
     reasons: str
 
 
@@ -85,7 +94,8 @@ def thigh_of(hip: Estimate, knee: Estimate) -> Thigh:
     """Both levers are of the thigh's sensor: sensor 2 of the hip, sensor 1 of the knee."""
     stated = hip.bounds[2] < UNKNOWN_BOUNDS[2] and knee.bounds[1] < UNKNOWN_BOUNDS[1]
     return Thigh(hip.name.partition(":")[0], hip.length_s, hip.warm, hip.begin_s, float(np.linalg.norm(hip.r[1] - knee.r[0])),
-                 float(np.hypot(hip.bounds[2], knee.bounds[1])), bool(hip.known[2] and knee.known[1]), bool(stated), f"{hip.reason}, {knee.reason}")
+                 float(np.hypot(hip.bounds[2], knee.bounds[1])), bool(hip.known[2] and knee.known[1]), bool(stated), (hip.left, knee.left),
+                 f"{hip.reason}, {knee.reason}")
 
 
 def spread_row(label: str, mine: list[Thigh]) -> list:
@@ -97,11 +107,12 @@ def spread_row(label: str, mine: list[Thigh]) -> list:
 
 def report_thighs(report: Report, thighs: list[Thigh], truth_m: float | None) -> None:
     report.text("## Thigh length\n\nFrom the hip's lever to the thigh's sensor and the knee's, both in the thigh sensor's frame, at the end of a recording or of "
-                "consecutive parts of 20 s, known or not. Bound: of both together (root of the sum of squares). Known: both levers. Truth, "
+                "consecutive parts of 20 s, known or not; parts in which nothing moves are left out. Bound: of both together (root of the sum of squares). Known: both levers. Truth, "
                 "optical: " + ("-" if truth_m is None else f"{1e3 * truth_m:.0f} mm (walk_leg_L)") + ".")
-    report.table(["recording", "filters", "from, s", "part", "length, mm", "bound", "known", "at the end, hip, knee"],
+    report.table(["recording", "filters", "from, s", "part", "length, mm", "bound", "known", "left of the hip's motion, %", "of the knee's", "at the end, hip, knee"],
                  [[t.name, "warm" if t.warm else "cold", number(t.begin_s, 0), "whole" if t.length_s == 0.0 else f"{t.length_s:g} s", number(1e3 * t.length_m, 0),
-                   number(1e3 * t.bound_m, 0) if t.stated else "-", "yes" if t.known else "no", t.reasons] for t in thighs])
+                   number(1e3 * t.bound_m, 0) if t.stated else "-", "yes" if t.known else "no",
+                   *(number(100.0 * share, 1) for share in t.left), t.reasons] for t in thighs])
     rows = []
     for word, warm in TEMPERATURES:
         mine = [t for t in thighs if t.name == LEGS[1] and t.length_s and t.warm == warm]
@@ -200,8 +211,18 @@ def report_repeats(report: Report, estimates: list[Estimate]) -> None:
             distances = np.concatenate([r.apart for r in repeats[item]])
             if len(distances):
                 report.require_most(f"{ITEMS[item]}: pairs of parts apart, median", SCALES[item] * median(distances), limit, unit)
-                ratios = [r.ratio for r in repeats[item] if r.pairs and np.isfinite(r.ratio)]
-                report.require_most(f"{ITEMS[item]}: bound over scatter, median of the rows", median(ratios), SHARPEST)
+
+
+def report_sharpness(report: Report, estimates: list[Estimate]) -> None:
+    """Bound over scatter of each recording: median of the lengths and filters with enough parts for a scatter."""
+    for name in REPEATED:
+        for item in (*LEVERS, *AXES):
+            told = [[e for e in estimates if (e.name, e.length_s, e.warm) == (name, length_s, warm) and e.known[item]]
+                    for length_s in PARTS_S for _, warm in TEMPERATURES]
+            ratios = [repeat_of(item, mine).ratio for mine in told if len(mine) >= SCATTER_PARTS]
+            if ratios:
+                report.require_most(f"{name}, {ITEMS[item]}: bound over scatter, median where at least {SCATTER_PARTS} parts know it", median(ratios), SHARPEST,
+                                    known=(3.9, COMMON) if (name, item) == ("human_knee_left", 2) else None)
 
 
 def measure(settings: Settings, report: Report) -> None:
@@ -214,6 +235,7 @@ def measure(settings: Settings, report: Report) -> None:
     estimates = [e for e in run_jobs(measure_part, jobs, "people_levers", settings) if e]
     by = {(e.name, e.length_s, e.warm, e.begin_s): e for e in estimates}
     thighs = [thigh_of(hip, by[knee]) for key, hip in by.items() if key[0].endswith(":hip")
-              and (knee := (key[0].replace(":hip", ":knee"), *key[1:])) in by]
+              and (knee := (key[0].replace(":hip", ":knee"), *key[1:])) in by and hip.is_there and by[knee].is_there]
     report_thighs(report, thighs, people.people_joint(f"{LEGS[0]}:hip").facts.get("thigh_length_m"))
     report_repeats(report, estimates)
+    report_sharpness(report, estimates)
