@@ -23,7 +23,7 @@ LEVERS_APART_MM, AXES_APART_DEG = 20.0, 10.0  # in the median
 AGREE = 0.95
 SHARPEST = 3.0  # bound over scatter
 SCATTER_PARTS = 3  # at least, or the scatter is chance
-COMMON = "More than half of the bound is for what all parts have in common"
+COMMON = "10 % of the lever and 3 mm, nearly half of the bound, are for what all parts have in common"
 NORMAL_95 = 1.96
 SKIN = (0.17, 0.10)  # of the levers, within their bounds, for skin that goes along with its segment: the same in every part
 
@@ -102,7 +102,7 @@ def spread_row(label: str, mine: list[Thigh]) -> list:
     lengths = 1e3 * np.array([t.length_m for t in mine])
     return [label, len(mine), *((number(median(lengths), 0), number(np.std(lengths, ddof=1) if len(mine) > 1 else np.nan, 0),
                                  number(np.ptp(lengths), 0)) if len(mine) else ("-", "-", "-")),
-            number(1e3 * median([t.bound_m for t in mine]), 0)]
+            number(1e3 * median([t.bound_m for t in mine if t.stated]), 0)]
 
 
 def report_thighs(report: Report, thighs: list[Thigh], truth_m: float | None) -> None:
