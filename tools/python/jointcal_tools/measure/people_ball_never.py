@@ -8,13 +8,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .. import native_two_axes as two_axes
-from .harness import Report, Settings, number, numbered, run_jobs
-from .people_ball import BEYOND, HEADING, ITEMS, SCALES, Known, bounds, errors, known
+from .harness import Report, Settings, median, number, numbered, percent, quantile, run_jobs
+from .people_ball import BEYOND, HEADING, ITEMS, SCALES, UNITS, Known, bounds, errors, known
 from .people_ball_cases import CLASSES, NEVER, RULES, Judged, ball_case, counts, here, judged
 
 TITLE = "Never known: people's joints without a common axis"
 QUICK_RUNS = 60
 LISTED = 8  # of a class
+LEAST_RIGHT = 5
 # Classes in which something is known for a reason that is understood: the most of it, in parts of the runs, and the reason.
 THIGHS = ("Two thighs move as one joint about the pelvis in squats and jumps: 0.2 to 1.6 % of the centre's motion is left. In most of them a lever is known only "
           "because the limit of 60 mm is widened to 72 once the heading is known")
@@ -52,6 +53,9 @@ class Outcome:
     source: str
     reason: str  # at the end
     known: np.ndarray  # (5,) at any time
+    at_end: np.ndarray  # (5,) known then
+    errors: np.ndarray = field(default_factory=lambda: np.full(5, np.nan))  # (5,) at the end, NaN without a truth
+    bounds: np.ndarray = field(default_factory=lambda: np.full(5, np.nan))
     wrong: list[Wrong] = field(default_factory=list)
 
     def is_wrong(self, item: int | None = None) -> bool:
@@ -84,10 +88,11 @@ def measure_case(job: tuple[str, int]) -> Outcome:
     track = two_axes.run(case.rec)
     flags = known(track)
     reason = two_axes.reason_name(track.reason[-1]) if len(track.reason) else "no_data"
-    outcome = Outcome(kind, index, case.source, "ready" if track.ready[-1:].any() else reason, flags.any(axis=0))
+    outcome = Outcome(kind, index, case.source, "ready" if track.ready[-1:].any() else reason, flags.any(axis=0), flags[-1:].any(axis=0))
     if not flags.any():
         return outcome
     off, stated = off_by(track, judged(kind, case, track)), bounds(track)
+    outcome.errors, outcome.bounds = off[-1], stated[-1]
     bad = wrong_ticks(RULES[CLASSES[kind].rule], flags, off, stated)
     for item in np.flatnonzero(bad.any(axis=0)):
         k = int(bad[:, item].argmax())
@@ -111,15 +116,34 @@ def report_offenders(report: Report, outcomes: list[Outcome], kinds: list[str]) 
                    *(f"{value:.3g}" for value in w.numbers.values()), o.source] for o, w in listed])
 
 
+def report_right(report: Report, outcomes: list[Outcome], kinds: list[str]) -> None:
+    """Of what may be known and has a truth: how good it is."""
+    rows = []
+    for kind in kinds:
+        for item, what in enumerate(RULES[CLASSES[kind].rule]):
+            mine = [o for o in outcomes if o.kind == kind and o.at_end[item] and np.isfinite(o.errors[item])]
+            if what == NEVER or len(mine) < LEAST_RIGHT:
+                continue
+            off, stated = (np.array([getattr(o, of)[item] for o in mine]) for of in ("errors", "bounds"))
+            digits = 1 if UNITS[item] == "deg" else 0
+            rows.append([kind, ITEMS[item], UNITS[item], len(mine), percent(int((off <= stated).sum()), len(mine)),
+                         *(number(SCALES[item] * value, digits) for value in (median(off), quantile(off, 0.9), quantile(off, 1.0), median(stated)))])
+    if rows:
+        report.text(f"What is known at the end and has a truth, in classes where there are at least {LEAST_RIGHT} such runs, real ones among them: how many are "
+                    "within their bound, errors (less what the truth itself may be off by, 5 deg of sensors on one body), and the median bound.")
+        report.table(["class", "what", "unit", "known at the end", "within the bound", "error, median", "90 %", "largest", "bound"], rows)
+
+
 def measure(settings: Settings, report: Report) -> None:
     total = sum(CLASSES[name].runs for name in here())
     outcomes = run_jobs(measure_case, numbered(counts(settings.count(total, QUICK_RUNS)), settings.only), "people_ball_never", settings)
-    rules = "; ".join(f"{name}: {', '.join(item for item, what in zip(ITEMS, rule, strict=True) if what == NEVER) or 'nothing'}" for name, rule in RULES.items())
+    rules = "; ".join(f"{name}: {', '.join(item for item, what in zip(ITEMS, rule, strict=True) if what == NEVER) or 'nothing'}"
+                      for name, rule in RULES.items())
     report.text("Runs of 26 s, real where recordings are, else simulated, each to a fresh instance of the joint with two axes, whose heading and "
                 "levers are those of the ball joint; the classes are described in tools/python/jointcal_tools/measure/people_faults.py and "
                 f"people_ball_cases.py. By its rule a class says what must never be known ({rules}); everything else must never be known and off by more than "
-                f"{BEYOND:g} times its bound, where there is a truth. The counts are of runs in which it is so at any time, in parentheses: of runs in which it is known at "
-                "any time. Truth: orientations, levers and axes of the simulation; optical orientations and measured levers of rigs "
+                f"{BEYOND:g} times its bound, where there is a truth. The counts are of runs in which it is so at any time, in "
+                "parentheses: of runs in which it is known at any time. Truth: orientations, levers and axes of the simulation; optical orientations and measured levers of rigs "
                 "and elbows; of pelvis and shank the headings of hip and knee; of two sensors on one body the turn between their rates; of both legs "
                 "none. `measure.py people_ball_never --only CLASS:NUMBER` makes a run again.")
     kinds = list(dict.fromkeys(o.kind for o in outcomes))
@@ -134,6 +158,7 @@ def measure(settings: Settings, report: Report) -> None:
                      ", ".join(f"{name} {count}" for name, count in Counter(o.reason for o in mine).most_common(3))])
     rows.append(["all", "", len(outcomes), *cells(outcomes), sum(o.is_wrong() for o in outcomes), ""])
     report.table(["class", "rule", "runs", *(f"{item}" for item in ITEMS), "any", "at the end"], rows)
+    report_right(report, outcomes, kinds)
     report_offenders(report, outcomes, kinds)
     for kind in kinds:
         mine = [o for o in outcomes if o.kind == kind]

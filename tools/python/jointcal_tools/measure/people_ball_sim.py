@@ -30,15 +30,16 @@ GROUPS = {"knees": "knee", "ankles": "ankle", "elbows": "elbow"}
 DRIFT_S = 20.0  # of the true heading, over the last seconds
 # What is reached where a requirement is not met, and why.
 LAG = "The heading of the moment lags by 10 s, its memory, where it drifts, by up to 0.8 deg/s with biases of 0.5 deg/s; the bound knows nothing of it"
-INCLINED = ("Running, mostly ankles, mostly at 40 and 60 Hz: inclinations of the sensors are wrong by 5 to 30 deg for moments, and the heading of the moment with them; "
-            "what is left of it is the lag")
+INCLINED = ("Running, mostly ankles, mostly at 40 and 60 Hz: inclinations of the sensors are wrong by 5 to 30 deg for moments, and the "
+            "heading of the moment with them; the rest is the lag")
 ALONG = "Most of the error, 36 to 47 mm beside 17 across, is along the axis of bending, about which a knee alone tells nothing of where its centre is"
 RINGING = "All of them running: skin that rings after heel strikes shortens the levers, to 0.75 and 0.9 of their length, by more than their bounds hold"
 KNOWN_BEYOND: dict[int, Known] = {HEADING: (0.04, INCLINED)}
 KNOWN_INSIDE: dict[tuple[str, int, str], Known] = {
     ("knees", HEADING, "end"): (0.91, LAG), ("ankles", HEADING, "end"): (0.82, LAG), ("elbows", HEADING, "end"): (0.93, LAG),
     ("rigid mounts", HEADING, "end"): (0.83, LAG), ("knees", 1, "first"): (0.6, ALONG), ("knees", 1, "end"): (0.5, ALONG),
-    ("elbows", 1, "first"): (0.93, RINGING), ("elbows", 1, "end"): (0.93, RINGING), ("elbows", 2, "first"): (0.85, RINGING), ("elbows", 2, "end"): (0.8, RINGING)}
+    ("elbows", 1, "first"): (0.93, RINGING), ("elbows", 1, "end"): (0.93, RINGING), ("elbows", 2, "first"): (0.85, RINGING),
+    ("elbows", 2, "end"): (0.8, RINGING)}
 
 
 @dataclass
@@ -130,8 +131,9 @@ def report_lag(report: Report, groups: dict[str, list[Outcome]]) -> None:
         rows.append([label, len(ended), number(quantile(np.abs(drift), 0.5)), number(quantile(np.abs(drift), 1.0)), number(late_s, 1), number(alike),
                      percent(int((np.abs(off) <= stated).sum()), len(ended)),
                      percent(int((np.abs(off + late_s * drift) <= stated).sum()), len(ended))])
-    report.text(f"## Headings that drift\n\nThe true heading's drift over the last {DRIFT_S:g} s (biases of gyroscopes that are not known yet), and what the errors at the end "
-                "have of it: error = -lag x drift, of runs in which the heading is known then. Covered without the lag: with lag x drift taken off.")
+    report.text(f"## Headings that drift\n\nThe true heading's drift over the last {DRIFT_S:g} s (biases of gyroscopes that are not known yet), "
+                "and what the errors at the end have of it: error = -lag x drift, of runs in which the heading is known then. "
+                "Covered without the lag: with lag x drift taken off.")
     report.table(["runs of", "known", "drift, median, deg/s", "largest", "lag, s", "correlation", "covered, end", "without the lag"], rows)
 
 
@@ -142,10 +144,11 @@ def measure(settings: Settings, report: Report) -> None:
     report.text("60 s each: rates of 40 to 200 Hz, skin of 0.5 to 2 times that of tools/python/jointcal_tools/simulate_people.py, biases and lag as in "
                 "people_sim.md. Truth: orientations of the sensors that skin carries, levers in the mean over skin, the main axis of the bones. Within: known "
                 "within so much motion. Covered: within its bound when it is first known, of runs in which it ever is; at the end, of "
-                "those in which it is known then, and of all that state a bound then. A rigid hinge's centre may be anywhere on its axis: levers are not to be known there. Errors, bounds, and sharpness (median bound over median "
+                "those in which it is known then, and of all that state a bound then. A rigid hinge's centre may be anywhere on its axis: levers "
+                "are not to be known there. Errors, bounds, and sharpness (median bound over median "
                 f"error): of those known at the end. Beyond: runs in which it is known and more than {BEYOND:g} times its bound off at any time; "
-                "outside: share of the time while known in which the error is above the bound, mean over runs. The levers' bounds hold 17 and 10 % of the lever for skin "
-                "that goes along with its segment; simulated skin does so by 8 to 15 % of the proximal segment's rotation.")
+                "outside: share of the time while known in which the error is above the bound, mean over runs. The levers' bounds hold 17 and "
+                "10 % of the lever for skin that goes along with its segment; simulated skin does so by 8 to 15 % of the proximal segment's rotation.")
     rows = []
     for kind in CLASSES:
         mine = [o for o in outcomes if o.kind == kind]

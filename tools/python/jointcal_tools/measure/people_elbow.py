@@ -29,10 +29,11 @@ MOSTLY_S, MOSTLY_SHARE, MOSTLY_RAD_S = 2.5, 0.85, 0.3  # a motion is mostly abou
 MOTIONS = ("bends", "turns")
 # What is not met, and why.
 NOT_COMPLETE = {"people_elbow_E_ROM": "The heading is known to 15 deg only when the elbow has ceased to bend"}
-CENTER_RESTS = ("While the forearm alone turns, the elbow moves at 2 to 3 cm/s, of which skin leaves a quarter: that is just at what noise is allowed to leave, so that "
-                "windows are taken or not by chance")
+CENTER_RESTS = ("While the forearm alone turns, the elbow moves at 2 to 3 cm/s, of which skin leaves a quarter: that is just at what noise is "
+                "allowed to leave, so that windows are taken or not by chance")
 NO_HEADING = {"people_ankle_orthosis": "It bends by 7 deg, and its accelerometers clip and read 10.9 m/s^2 at rest"}
-KNOWN_STARTS: dict[int, Known] = {4: (0.75, "Two starts of people_elbow_E_ROM that find axis 2 in the same passage: 12.6 beside a bound of 12.5, 12.1 beside 12.0 deg")}
+KNOWN_STARTS: dict[int, Known] = {4: (0.75, "Two starts of people_elbow_E_ROM that find axis 2 in the same passage: 12.6 beside a bound of 12.5, "
+                                            "12.1 beside 12.0 deg")}
 
 
 # What the references say of the motion.

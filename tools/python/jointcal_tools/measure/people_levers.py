@@ -107,9 +107,10 @@ def spread_row(label: str, mine: list[Thigh]) -> list:
 
 def report_thighs(report: Report, thighs: list[Thigh], truth_m: float | None) -> None:
     report.text("## Thigh length\n\nFrom the hip's lever to the thigh's sensor and the knee's, both in the thigh sensor's frame, at the end of a recording or of "
-                "consecutive parts of 20 s, known or not; parts in which nothing moves are left out. Bound: of both together (root of the sum of squares). Known: both levers. Truth, "
-                "optical: " + ("-" if truth_m is None else f"{1e3 * truth_m:.0f} mm (walk_leg_L)") + ".")
-    report.table(["recording", "filters", "from, s", "part", "length, mm", "bound", "known", "left of the hip's motion, %", "of the knee's", "at the end, hip, knee"],
+                "consecutive parts of 20 s, known or not; parts in which nothing moves are left out. Bound: of both together (root of the sum of squares). "
+                "Known: both levers. Truth, optical: " + ("-" if truth_m is None else f"{1e3 * truth_m:.0f} mm (walk_leg_L)") + ".")
+    report.table(["recording", "filters", "from, s", "part", "length, mm", "bound", "known", "left of the hip's motion, %",
+                  "of the knee's", "at the end, hip, knee"],
                  [[t.name, "warm" if t.warm else "cold", number(t.begin_s, 0), "whole" if t.length_s == 0.0 else f"{t.length_s:g} s", number(1e3 * t.length_m, 0),
                    number(1e3 * t.bound_m, 0) if t.stated else "-", "yes" if t.known else "no",
                    *(number(100.0 * share, 1) for share in t.left), t.reasons] for t in thighs])
@@ -188,10 +189,10 @@ def repeat_row(label: str, item: int, mine: list[Estimate]) -> list:
 
 def report_repeats(report: Report, estimates: list[Estimate]) -> None:
     report.text("## Parts of a recording\n\nConsecutive parts, a fresh instance for each (warm: filters have run before), its estimate at the "
-                "end. Pairs: of parts that know it then; agree: the two are within both bounds together (root of the sum of squares). Scatter: 1.96 times the standard "
-                "deviation of the parts; bound over scatter: how much wider than what shows. Bounds hold what all parts have in common, "
-                f"{100 * SKIN[0]:g} and {100 * SKIN[1]:g} % of the lever for skin that goes along with its segment, which no scatter shows. The last two columns: parts that state a bound, known "
-                "or not, and how far apart.")
+                "end. Pairs: of parts that know it then; agree: the two are within both bounds together (root of the sum of squares). Scatter: "
+                "1.96 times the standard deviation of the parts; bound over scatter: how much wider than what shows. Bounds hold what all parts have in common, "
+                f"{100 * SKIN[0]:g} and {100 * SKIN[1]:g} % of the lever for skin that goes along with its segment, which no scatter "
+                "shows. The last two columns: parts that state a bound, known or not, and how far apart.")
     rows, groups = [], []
     for name in REPEATED:
         for length_s in PARTS_S:
