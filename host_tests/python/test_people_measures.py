@@ -193,6 +193,17 @@ class BallTest(unittest.TestCase):
         yaw = quat.rotation(np.array([0.7]), np.array([0.0, 0.0, 1.0]))
         self.assertAlmostEqual(float(people_ball.yaw_deg(quat.multiply(yaw, tilt))[0]), float(np.degrees(0.7)), places=6)
 
+    def test_mean_heading_forgives_one_sample_and_knows_the_circle(self):
+        heading = np.r_[np.full(20, 179.0), np.full(21, -179.0)]
+        heading[5] = np.nan
+        mean = people_ball.circular_mean_deg(heading, 5)
+        self.assertEqual(np.flatnonzero(np.isnan(mean)).tolist(), [5])
+        np.testing.assert_allclose(mean[[0, 4, 10, 40]], [179.0, 179.0, 179.0, -179.0])
+        self.assertLess(np.abs(people_flexion.wrapped_deg(mean[18:22] - 180.0)).max(), 1.0)
+        self.assertLess(abs(mean[19]) - 179.0, 1.0)
+        heading[10] = 160.0
+        self.assertLess(abs(people_ball.circular_mean_deg(heading, 5)[10] - 179.0), 4.0)
+
     def test_errors_are_those_of_lines_points_and_angles_on_the_circle(self):
         joint = said_of_all(2, heading_deg=np.array([179.0, 10.0]), axis1=np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0]]))
         truth = people_ball.Truth(np.array([-179.0, 10.0]), (np.array([0.0, 0.3, 0.4]), None), (np.array([0.0, 1.0, 0.0]), None))

@@ -23,6 +23,7 @@ ITEMS = ("heading", "lever 1", "lever 2", "axis 1", "axis 2")
 UNITS = ("deg", "mm", "mm", "deg", "deg")
 SCALES = (1.0, 1e3, 1e3, 1.0, 1.0)  # from the numbers to UNITS
 HEADING, LEVERS, AXES = 0, (1, 2), (3, 4)
+HEADING_S = 1.0
 BEYOND = 2.0  # times its bound: what is known must never be farther off
 UNKNOWN_BOUNDS = np.array([89.0, 9.0, 9.0, 89.0, 89.0])  # deg, m: from here on nothing is stated
 
@@ -44,13 +45,23 @@ def yaw_deg(q: np.ndarray) -> np.ndarray:
     return wrapped_deg(2.0 * np.degrees(np.arctan2(q[:, 3], q[:, 0])))
 
 
-def true_heading_deg(own: tuple[np.ndarray, np.ndarray], lab: tuple[np.ndarray, np.ndarray]) -> np.ndarray:
+def circular_mean_deg(angle_deg: np.ndarray, count: int) -> np.ndarray:
+    """(N,) mean over `count` samples around each, of those that are known; NaN where that one itself is not."""
+    known_ones = np.isfinite(angle_deg)
+    turned = np.where(known_ones, np.exp(1j * np.radians(np.where(known_ones, angle_deg, 0.0))), 0.0)
+    mean = np.convolve(turned, np.ones(count), "full")[count // 2: count // 2 + len(turned)]
+    return np.where(known_ones, np.degrees(np.angle(mean)), np.nan)
+
+
+def true_heading_deg(own: tuple[np.ndarray, np.ndarray], lab: tuple[np.ndarray, np.ndarray], rate_hz: float | None = None) -> np.ndarray:
     """(N,) heading of level frame 2 to 1: of both sensors' orientations to their level frames and to one frame with z up.
 
     R_lab,i = Rz(y_i) R_i but for errors of inclination, so R1' Rz(d) R2 = R_lab,1' R_lab,2 wants d = y2 - y1.
+    With a rate the mean over HEADING_S: level frames drift slowly, but at 40 Hz and 20 rad/s one orientation may be off by 10 deg.
     """
     y1, y2 = (yaw_deg(optical.multiply(q_lab, optical.conjugate(q_own))) for q_lab, q_own in zip(lab, own, strict=True))
-    return wrapped_deg(y2 - y1)
+    heading = wrapped_deg(y2 - y1)
+    return heading if rate_hz is None else circular_mean_deg(heading, max(round(HEADING_S * rate_hz), 1))
 
 
 def known(track: Track) -> np.ndarray:
@@ -146,5 +157,6 @@ def axis_truth(name: str) -> Pair:
 def truth_of(name: str, track: Track, begin: int = 0, axes: Pair | None = None) -> Truth:
     """What is known of a passage that begins with sample `begin` of a recording."""
     lab, count = lab_quaternions(name), len(track.q1)
-    heading = None if lab is None else true_heading_deg((track.q1, track.q2), tuple(q[begin: begin + count] for q in lab))
+    heading = None if lab is None else true_heading_deg((track.q1, track.q2), tuple(q[begin: begin + count] for q in lab),
+                                                         whole(name).rate_hz)
     return Truth(heading, lever_truth(name), axis_truth(name) if axes is None else axes)

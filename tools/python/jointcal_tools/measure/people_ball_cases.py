@@ -155,7 +155,7 @@ class Judged:
 def simulated_truth(case: PeopleCase, track: two_axes.Track) -> Truth:
     """Of a simulated person. Axis 1: the main axis of what the bones did."""
     rec, count = case.person, len(track.q1)
-    heading = true_heading_deg((track.q1, track.q2), (rec.q1[:count], rec.q2[:count]))
+    heading = true_heading_deg((track.q1, track.q2), (rec.q1[:count], rec.q2[:count]), rec.spec.rate_hz)
     return Truth(heading, (rec.r1, rec.r2), (None, None) if rec.spec.stiff else (main_axes(rec)[0], None))
 
 
@@ -167,7 +167,8 @@ def passage_truth(case: PeopleCase, track: two_axes.Track) -> Truth:
         index, late_s = case.late or (0, 0.0)
         shift = round(late_s * faults.whole(case.name).rate_hz)
         begins = [case.begin + (0 if k == index else shift) for k in range(2)]
-        heading = true_heading_deg((track.q1, track.q2), tuple(q[b: b + count] for q, b in zip(lab, begins, strict=True)))
+        heading = true_heading_deg((track.q1, track.q2), tuple(q[b: b + count] for q, b in zip(lab, begins, strict=True)),
+                                   faults.whole(case.name).rate_hz)
     axes = (known_axes(case.name)[0], None) if case.name in KNOWN_AXES else axis_truth(case.name)
     return Truth(heading, lever_truth(case.name), axes)
 
@@ -187,7 +188,7 @@ def stiff_heading(case: PeopleCase, track: two_axes.Track) -> Judged:
     """Of two sensors of one body: R_2 = R_1 T with one rotation T, from their rates."""
     turn = optical.from_matrix(optical.turn_between(case.rec.gyr2, case.rec.gyr1))
     lab = track.q1, optical.multiply(track.q1, turn[None, :])
-    return Judged(Truth(true_heading_deg((track.q1, track.q2), lab)), np.full(len(track.q1), STIFF_SLACK_DEG))
+    return Judged(Truth(true_heading_deg((track.q1, track.q2), lab, case.rec.rate_hz)), np.full(len(track.q1), STIFF_SLACK_DEG))
 
 
 def judged(name: str, case: PeopleCase, track: two_axes.Track) -> Judged:

@@ -105,7 +105,7 @@ def report_whole(report: Report, wholes: list[Whole]) -> None:
     report.text("## Whole recordings\n\nA fresh instance with its defaults from the first sample to the last. Motion: seconds weighted by "
                 "m/(m + 1), m the sum of both squared rates. Error and bound when it first becomes known, and at the end, known or not; while known: "
                 "median, 90 % and largest error. The true heading: yaws by which optical orientations and those of the sensor stage "
-                "differ. True axes: main axes of optical relative rates in another trial of the same person; true levers: from the middle "
+                "differ, mean over 1 s. True axes: main axes of optical relative rates in another trial of the same person; true levers: from the middle "
                 "of the epicondyles.")
     report.table(["recording", "what", "unit", "known after, s", "after motion, s", "error", "bound", "error at the end", "bound", "known at the end",
                   "while known, median", "90 %", "largest"], [item_row(w, item) for w in wholes for item in range(5)])
