@@ -1,4 +1,4 @@
-"""The arithmetic of the measurements on people: angles, windows, parts, what counts as wrong; and an estimate that is held."""
+"""The arithmetic of the measurements on people: angles, headings, windows, parts, what counts as wrong; and an estimate that is held."""
 
 import sys
 import unittest
@@ -10,9 +10,10 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools" / "python"))
 
-from jointcal_tools import native, native_functional  # noqa: E402
+from jointcal_tools import native, native_functional, native_two_axes  # noqa: E402
 from jointcal_tools import quaternions as quat  # noqa: E402
-from jointcal_tools.measure import judge, people_angles, people_flexion, people_hinge, people_never, people_sim  # noqa: E402
+from jointcal_tools.measure import (judge, people_angles, people_ball, people_ball_cases, people_ball_never, people_ball_sim,  # noqa: E402
+                                    people_elbow, people_flexion, people_hinge, people_levers, people_never, people_sim)
 from jointcal_tools.measure.people_faults import PeopleCase  # noqa: E402
 from jointcal_tools.recordings import Recording  # noqa: E402
 from jointcal_tools.simulate_people import PersonSpec, simulate_person  # noqa: E402
@@ -166,6 +167,192 @@ class SimTest(unittest.TestCase):
 
         self.assertEqual(people_sim.covered([outcome(1.0, False), outcome(3.0, False), outcome(1.0, True), outcome(9.0, False, False)]),
                          ([1, 2], 3))
+
+
+def said_of_all(count, **parts):
+    """What a joint with two axes said at `count` ticks, one a sample, as far as a test needs it."""
+    nothing = {"t_s": np.arange(float(count)), "sample": np.arange(count), "heading_deg": np.zeros(count), "r1": np.zeros((count, 3)),
+               "r2": np.zeros((count, 3)), "axis1": np.tile([0.0, 1.0, 0.0], (count, 1)), "axis2": np.tile([0.0, 0.0, 1.0], (count, 1))}
+    return track(**(nothing | parts))
+
+
+class BallTest(unittest.TestCase):
+    def test_true_heading_turns_level_frame_2_to_1(self):
+        rng = np.random.default_rng(5)
+        z = np.array([0.0, 0.0, 1.0])
+        lab = [quat.from_rotation_vectors(rng.standard_normal((30, 3))) for _ in range(2)]
+        yaws = np.linspace(-200.0, 300.0, 30), np.linspace(10.0, 90.0, 30)
+        own = tuple(quat.multiply(quat.rotation(np.radians(-yaw), z), q) for yaw, q in zip(yaws, lab, strict=True))
+        heading = people_ball.true_heading_deg(own, tuple(lab))
+        relative = quat.multiply(quat.conjugate(own[0]), quat.multiply(quat.rotation(np.radians(heading), z), own[1]))
+        right = quat.multiply(quat.conjugate(lab[0]), lab[1])
+        self.assertLess(np.abs(quat.matrices(relative) - quat.matrices(right)).max(), 1e-9)
+
+    def test_a_small_tilt_does_not_turn_the_heading(self):
+        tilt = quat.rotation(np.array([0.03]), np.array([1.0, 0.0, 0.0]))
+        yaw = quat.rotation(np.array([0.7]), np.array([0.0, 0.0, 1.0]))
+        self.assertAlmostEqual(float(people_ball.yaw_deg(quat.multiply(yaw, tilt))[0]), float(np.degrees(0.7)), places=6)
+
+    def test_mean_heading_forgives_one_sample_and_knows_the_circle(self):
+        heading = np.r_[np.full(20, 179.0), np.full(21, -179.0)]
+        heading[5] = np.nan
+        mean = people_ball.circular_mean_deg(heading, 5)
+        self.assertEqual(np.flatnonzero(np.isnan(mean)).tolist(), [5])
+        np.testing.assert_allclose(mean[[0, 4, 10, 40]], [179.0, 179.0, 179.0, -179.0])
+        self.assertLess(np.abs(people_flexion.wrapped_deg(mean[18:22] - 180.0)).max(), 1.0)
+        self.assertLess(abs(mean[19]) - 179.0, 1.0)
+        heading[10] = 160.0
+        self.assertLess(abs(people_ball.circular_mean_deg(heading, 5)[10] - 179.0), 4.0)
+
+    def test_errors_are_those_of_lines_points_and_angles_on_the_circle(self):
+        joint = said_of_all(2, heading_deg=np.array([179.0, 10.0]), axis1=np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0]]))
+        truth = people_ball.Truth(np.array([-179.0, 10.0]), (np.array([0.0, 0.3, 0.4]), None), (np.array([0.0, 1.0, 0.0]), None))
+        np.testing.assert_allclose(people_ball.errors(joint, truth), [[2.0, 0.5, np.nan, 0.0, np.nan], [0.0, 0.5, np.nan, 90.0, np.nan]], atol=1e-9)
+
+    def test_samples_have_what_the_last_tick_said(self):
+        found = people_ball.at_ticks(np.array([5.0, 7.0]), np.array([1, 3]), 5)
+        np.testing.assert_array_equal(found, [np.nan, 5.0, 5.0, 7.0, 7.0])
+        self.assertEqual(people_ball.at_ticks(np.zeros((0, 3)), np.zeros(0, int), 4).shape, (4, 3))
+
+    def test_a_known_reason_does_not_outlive_what_it_was_given_for(self):
+        for hits, known in ((90, True), (80, False)):
+            report = people_ball.Report("x", "x", "x", "x")
+            people_ball.require_share(report, "x", hits, 100, 0.95, (0.85, "why"))
+            self.assertEqual((report.requirements[-1].passed, report.passed), (False, known))
+        for count, known in ((0, True), (1, True), (5, True), (6, False)):
+            report = people_ball.Report("x", "x", "x", "x")
+            people_ball.require_none(report, "x", count, 100, (0.05, "why"))
+            self.assertEqual(report.passed, known)
+
+
+class ElbowTest(unittest.TestCase):
+    def test_motion_changes_where_most_of_each_is_on_its_side(self):
+        bends, turns = np.r_[np.full(40, 1.0), np.full(60, 0.1)], np.r_[np.full(40, 0.2), np.full(60, 2.0)]
+        self.assertEqual(people_elbow.change_at(bends, turns), 40)
+        self.assertEqual(people_elbow.change_at(np.zeros(5), np.ones(5)), 0)
+
+    def test_mostly_wants_speed_and_one_line_over_the_last_seconds(self):
+        along = np.r_[np.zeros(50), np.ones(100), np.ones(50)]
+        total2 = along**2 + np.r_[np.zeros(150), np.ones(50)]
+        found = people_elbow.mostly(along, total2, 20)
+        self.assertFalse(found[:51].any())
+        self.assertTrue(found[60:150].all())
+        self.assertFalse(found[160:].any())
+        self.assertFalse(people_elbow.mostly(0.1 * along, 0.01 * total2, 20).any())
+
+    def test_angles_of_axes_that_change_are_those_of_each(self):
+        turned = quat.rotation(np.linspace(0.0, 1.0, 40), np.array([0.0, 1.0, 0.0]))
+        y, z = np.array([0.0, 1.0, 0.0]), np.array([0.0, 0.0, 1.0])
+        still = people_elbow.angles_deg(turned, y, z)
+        np.testing.assert_allclose(people_flexion.apart_deg(still[:, 0], np.degrees(np.linspace(0.0, 1.0, 40))), 0.0, atol=1e-9)
+        self.assertLess(np.ptp(still[:, 1]), 1e-9)
+        axis1 = np.tile(y, (40, 1))
+        axis1[:10] = np.nan
+        axis1[30:] = [0.0, 0.6, 0.8]
+        moving = people_elbow.angles_deg(turned, axis1, np.tile(z, (40, 1)))
+        self.assertTrue(np.isnan(moving[:10]).all())
+        np.testing.assert_array_equal(moving[10:30], still[10:30])
+        np.testing.assert_array_equal(moving[30:], people_elbow.angles_deg(turned[30:], axis1[-1], z))
+
+    def test_axes_get_the_sense_of_the_reference(self):
+        y = np.array([0.0, 1.0, 0.0])
+        np.testing.assert_array_equal(people_elbow.toward(-y, y), y)
+        np.testing.assert_array_equal(people_elbow.toward(np.array([y, -y]), y), [y, y])
+
+    def test_spread_is_on_the_circle(self):
+        self.assertAlmostEqual(people_elbow.spread_deg(np.array([179.0, -179.0, np.nan])), 1.0, places=6)
+
+
+class LeversTest(unittest.TestCase):
+    def estimate(self, r2, bound_m, **parts):
+        nothing = {"name": "leg:hip", "length_s": 20.0, "warm": False, "begin_s": 0.0, "r": (np.zeros(3), np.array(r2)),
+                   "axes": (np.array([0.0, 1.0, 0.0]),) * 2, "bounds": np.array([5.0, bound_m, bound_m, 10.0, 90.0]),
+                   "known": np.ones(5, bool), "reason": "none", "left": 0.01}
+        return people_levers.Estimate(**(nothing | parts))
+
+    def test_parts_agree_within_both_bounds(self):
+        parts = [self.estimate([0.0, 0.0, 0.1], 0.02), self.estimate([0.0, 0.0, 0.125], 0.02), self.estimate([0.0, 0.0, 0.2], 0.02)]
+        found = people_levers.repeat_of(2, parts)
+        self.assertEqual((found.pairs, found.within.tolist()), (3, [True, False, False]))
+        np.testing.assert_allclose(found.apart, [0.025, 0.1, 0.075])
+
+    def test_scatter_of_axes_is_that_of_lines(self):
+        tilted = [np.array([np.sin(a), np.cos(a), 0.0]) for a in np.radians([-3.0, 3.0])]
+        self.assertAlmostEqual(people_levers.scatter_95(3, [tilted[0], -tilted[1]]), 1.96 * 3.0 * np.sqrt(2.0), places=3)
+        self.assertTrue(np.isnan(people_levers.scatter_95(3, tilted[:1])))
+
+    def test_thigh_is_between_hip_and_knee(self):
+        hip = self.estimate([0.0, 0.0, -0.2], 0.03)
+        knee = self.estimate([0.0, 0.0, 0.0], 0.04, r=(np.array([0.0, 0.0, 0.2]), np.zeros(3)))
+        thigh = people_levers.thigh_of(hip, knee)
+        self.assertAlmostEqual(thigh.length_m, 0.4)
+        self.assertAlmostEqual(thigh.bound_m, 0.05)
+        self.assertTrue(thigh.known and thigh.stated)
+
+
+class BallNeverTest(unittest.TestCase):
+    def test_never_and_beyond(self):
+        flags = np.array([[True] * 5, [False, True, True, True, True]])
+        off = np.array([[9.0, 0.3, np.nan, 1.0, np.nan], [99.0, 0.1, 0.1, 30.0, np.nan]])
+        stated = np.tile([5.0, 0.1, 0.1, 10.0, 10.0], (2, 1))
+        found = people_ball_never.wrong_ticks(people_ball_cases.RULES["hinge"], flags, off, stated)
+        np.testing.assert_array_equal(found, [[False, True, False, False, True], [False, False, False, True, True]])
+        self.assertTrue(people_ball_never.wrong_ticks(people_ball_cases.RULES["unrelated"], flags, off, stated)[0].all())
+
+    def test_a_truth_that_is_uncertain_itself_forgives(self):
+        joint = said_of_all(3, heading_deg=np.array([0.0, 20.0, 5.0]))
+        what = people_ball_cases.Judged(people_ball.Truth(np.zeros(3)), np.full(3, 8.0))
+        np.testing.assert_allclose(people_ball_never.off_by(joint, what)[:, 0], [0.0, 12.0, 0.0])
+
+    def test_every_class_has_a_rule_and_those_of_people_are_among_them(self):
+        self.assertLessEqual({fault.rule for fault in people_ball_cases.CLASSES.values()}, set(people_ball_cases.RULES))
+        self.assertLessEqual(set(people_ball_cases.NO_JOINT) | set(people_ball_cases.HINGES) | set(people_ball_never.KNOWN),
+                             set(people_ball_cases.CLASSES))
+
+    def test_heading_of_one_body_is_that_of_the_turn_between_its_sensors(self):
+        rng = np.random.default_rng(8)
+        gyr, turn = rng.standard_normal((200, 3)), quat.rotation(1.1, np.array([0.3, -0.5, 0.8]))
+        rec = Recording(np.arange(200) / 100.0, gyr, gyr, gyr @ quat.matrices(turn[None])[0], gyr)  # v1 = T v2
+        q1 = quat.from_rotation_vectors(rng.standard_normal((200, 3)))
+        back = quat.rotation(np.radians(-40.0), np.array([0.0, 0.0, 1.0]))
+        q2 = quat.multiply(np.tile(back, (200, 1)), quat.multiply(q1, np.tile(turn, (200, 1))))
+        found = people_ball_cases.stiff_heading(PeopleCase(rec, "x"), track(q1=q1, q2=q2)).truth.heading_deg
+        np.testing.assert_allclose(found, 40.0, atol=1e-6)
+
+
+class BallSimTest(unittest.TestCase):
+    def test_lag_is_what_errors_have_of_the_drift(self):
+        drift = np.linspace(-0.5, 0.5, 11)
+        late_s, alike = people_ball_sim.lag_of(-10.0 * drift, drift)
+        self.assertAlmostEqual(late_s, 10.0)
+        self.assertAlmostEqual(alike, 1.0)
+
+    def test_inside_counts_those_that_are_asked_for(self):
+        def outcome(after_s, known, error, bound):
+            return track(after_s=np.full(5, after_s), first_errors=np.full(5, 1.0), first_bounds=np.full(5, 2.0), known=np.full(5, known),
+                         errors=np.full(5, error), bounds=np.full(5, bound))
+
+        runs = [outcome(3.0, True, 1.0, 2.0), outcome(3.0, False, 3.0, 2.0), outcome(np.inf, False, 3.0, 90.0)]
+        self.assertEqual([people_ball_sim.inside(runs, 0, when) for when in ("first", "end", "stated")], [(2, 2), (1, 1), (1, 2)])
+
+    def test_rigid_mounts_are_rigid_and_seeds_differ(self):
+        specs = [people_ball_sim.person_of(kind, 0) for kind in people_ball_sim.CLASSES]
+        self.assertEqual([spec.skin == 0.0 for spec in specs], [kind in people_ball_sim.RIGID for kind in people_ball_sim.CLASSES])
+        self.assertEqual(len({spec.seed for spec in specs}), len(specs))
+        self.assertEqual(specs[0], people_ball_sim.person_of(people_ball_sim.CLASSES[0], 0))
+
+
+@unittest.skipUnless(has_library(), native.BUILD_HINT)
+class BallTruthTest(unittest.TestCase):
+    def test_heading_of_a_simulated_elbow_is_found(self):
+        case = people_ball_cases.ball_case("elbow_bends", 0)
+        said = native_two_axes.run(case.rec)
+        what = people_ball_cases.judged("elbow_bends", case, said)
+        off, flags = people_ball_never.off_by(said, what), people_ball.known(said)
+        self.assertTrue(flags[:, 0].any())
+        self.assertLess(off[flags[:, 0], 0].max(), 2.0 * people_ball.bounds(said)[flags[:, 0], 0].max())
+        self.assertIsNone(what.truth.axes[1])
+        np.testing.assert_array_equal(what.truth.levers[0], case.person.r1)
 
 
 @unittest.skipUnless(has_library(), native.BUILD_HINT)

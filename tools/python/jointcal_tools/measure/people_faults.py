@@ -25,7 +25,7 @@ from .. import quaternions as quat
 from ..jets import Clock
 from ..recordings import Recording
 from ..simulate import ACC_STD_M_S2, GRAVITY_M_S2, GYR_STD_RAD_S, gauss_smooth, random_unit
-from ..simulate_people import ACTIVITIES, BLEND_S, PersonSpec, simulate_person
+from ..simulate_people import ACTIVITIES, BLEND_S, PersonRecording, PersonSpec, simulate_person
 from . import optical, people_joints
 from .faults import Case, choose, quat_matrix, resting_signals, scaled, signals, which_sensors, with_sensor
 from .judge import available, cut, line_angle_deg, nominal_axes, recording
@@ -55,6 +55,8 @@ class PeopleCase(Case):
     moves_deg: float = 0.0  # how far the axis moves in the distal frame in what follows
     name: str = ""  # recording and first sample of a passage
     begin: int = 0
+    person: PersonRecording | None = None  # what a simulated case was made from, before anything was done to it
+    late: tuple[int, float] | None = None  # of a passage: the sensor (0, 1) that tells what was so many seconds ago
 
 
 @dataclass(frozen=True)
@@ -129,7 +131,7 @@ def person(spec: PersonSpec) -> PeopleCase:
     names = " and ".join(name for name, _ in spec.activities)
     plain = Recording(rec.t_s, rec.gyr1, rec.acc1, rec.gyr2, rec.acc2)
     return PeopleCase(plain, f"simulated {spec.joint}, {names}, {spec.rate_hz:g} Hz, seed {spec.seed}",
-                      axis1=rec.axis1, axis2=rec.axis2)
+                      axis1=rec.axis1, axis2=rec.axis2, person=rec)
 
 
 def good_joint(rng: np.random.Generator) -> PeopleCase:
@@ -428,7 +430,7 @@ def late(rng: np.random.Generator, late_s: float) -> PeopleCase:
     keep = rec.t_s >= late_s - 1e-9
     then = resampled(rec, rec.t_s[keep] - late_s)
     now = Recording(rec.t_s[keep] - late_s, *(signal[keep] for signal in (rec.gyr1, rec.acc1, rec.gyr2, rec.acc2)))
-    case = PeopleCase(fresh(now), f"{name} from sample {begin}", wrong="beyond")
+    case = PeopleCase(fresh(now), f"{name} from sample {begin}", wrong="beyond", name=name, begin=begin, late=(index, late_s))
     case.axis1, case.axis2 = known_axes(name)
     return with_sensor(case, index, *signals(then, index), f"sensor {index + 1} late by {late_s:g} s")
 
