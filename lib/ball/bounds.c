@@ -21,8 +21,8 @@
 #define LEVER_SHARE 0.5f
 #define SKIN1 0.17f
 #define SKIN2 0.10f
-/// What is known of each component of a lever beforehand, 1/m^2: none is much longer than a metre. Of a joint that bends about one line only
-/// the centre is open along it, and nothing else would be known of such a motion.
+/// What is known of each component of a lever beforehand, 1/m^2: none is much longer than a metre. Of a joint that bends about one line
+/// only the centre is open along it, and nothing else would be known of such a motion.
 #define LEVER_KNOWN 1.0f
 /// Square of the least length of the levers that errors of the regressors are spread over, m^2.
 #define LENGTH2_MIN 1e-6f

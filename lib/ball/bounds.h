@@ -2,7 +2,8 @@
 /// @file
 /// Bounds of heading and levers: what the sums know of each once the others have taken their share. Private.
 ///
-/// The information about r1, r2 and both blocks' headings is the second derivative of the cost (ball/solve.h). The bound of the heading is
+/// The information about r1, r2 and both blocks' headings is the second derivative of the cost (ball/solve.h), and 1/m^2 for
+/// each component of a lever, which is known beforehand. The bound of the heading is
 /// twice its standard deviation. That of a lever is 3 mm, half of its standard deviation in the direction that is known least, what errors
 /// of the regressors shorten it by, and what no IMU can see: skin that goes along with its own segment, 17 % of the proximal lever and 10 %
 /// of the distal one. Source: docs/METHOD_PEOPLE.md, section 10.
