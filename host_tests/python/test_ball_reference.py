@@ -177,7 +177,7 @@ class Derivatives(unittest.TestCase):
         np.testing.assert_allclose(found[6:, 6:], numeric[6:, 6:], atol=bent + 1e-5 * np.abs(found).max())
 
     def test_levers_are_the_minimum_with_the_ridge(self):
-        """No other levers leave less, each of the six unknowns paid for by 1/200 of the mean diagonal."""
+        """No other levers leave less, each of the six unknowns paid for by 3/10,000 of the mean diagonal."""
         sums, point = self.case.sums, br.Point(np.zeros(6), self.case.point.heading)
         br.put_levers(sums, point)
         x = sums.cross(point.heading)
@@ -185,7 +185,7 @@ class Derivatives(unittest.TestCase):
 
         def left(r):
             one, two = np.r_[1.0, -r[:3]], np.r_[1.0, -r[3:]]
-            return one @ sums.lever1 @ one + two @ sums.lever2 @ two - 2.0 * one @ x @ two + 0.005 * np.trace(h) / 6.0 * r @ r
+            return one @ sums.lever1 @ one + two @ sums.lever2 @ two - 2.0 * one @ x @ two + 3e-4 * np.trace(h) / 6.0 * r @ r
 
         best = left(point.r)
         for step in 0.01 * np.random.default_rng(5).standard_normal((50, 6)):
@@ -322,7 +322,9 @@ class BallTest(unittest.TestCase):
         for (a, _), (_, b) in zip(one, two, strict=True):
             ball.add(a, b)
             self.assertEqual(ball.verdict.agreed, 0)
-        self.assertEqual(ball.verdict.reason, "not-one-joint")
+            if ball.sums.motion_s > 10.0:
+                self.assertEqual(ball.verdict.reason, "not-one-joint")
+        self.assertLess(ball.sums.motion_s, br.REFUSED_MAX_S)  # begun anew
 
     def test_reasons(self):
         for reason, level, spoil in (("gravity-off", 9.2, lambda a: a), ("no-bend", 9.81, lambda a: a)):
@@ -337,19 +339,33 @@ class BallTest(unittest.TestCase):
         self.assertEqual(ball.verdict.reason, "no-motion")
 
     def test_what_is_known_of_the_past_and_of_a_block_adds_up(self):
-        """Variances add from block to block, informations of one heading add."""
+        """Variances add from block to block, informations of one heading add: of a block what is left once levers are free."""
         rng = np.random.default_rng(12)
         ball = br.Ball()
         for pair in random_ticks(rng, 199, heading=0.4, noise=0.02):
             ball.add(*pair)
         self.assertGreater(ball.sums.blocks[1].motion_s, 0.0)
         ball.past = br.Past(unit(0.4), 300.0)
-        cost = [ball.sums.cross([ball.point.heading[0], ball.point.heading[1] * unit(t)]) for t in (-1e-3, 0.0, 1e-3)]
         weight = br.weight_of(ball.sums, ball.point.size)
-        curve = -weight * float(ball.point.x1 @ (cost[0] - 2.0 * cost[1] + cost[2]) @ ball.point.x2) / 1e-6
+
+        def least(angle):
+            """Half the sum of squares with the closed block's heading turned and levers and the open block's heading that follow."""
+            heading, r = [ball.point.heading[0], ball.point.heading[1] * unit(angle)], ball.point.r
+            for _ in range(60):
+                x = ball.sums.cross(heading)
+                r = np.linalg.solve(*ball.sums.normal(x))
+                one, two = np.r_[1.0, -r[:3]], np.r_[1.0, -r[3:]]
+                z = np.conj(one @ ball.sums.blocks[0].lever @ two) * weight + br.PULL * ball.point.heading[1]
+                heading[0] = z / abs(z)
+            own = one @ ball.sums.lever1 @ one + two @ ball.sums.lever2 @ two - 2.0 * one @ ball.sums.cross(heading) @ two
+            return 0.5 * weight * own - br.PULL * (np.conj(heading[0]) * ball.point.heading[1]).real
+
+        step = 0.02
+        curve = (least(step) - 2.0 * least(0.0) + least(-step)) / step**2
         left = ball.point.x1 @ ball.sums.cross(ball.point.heading) @ ball.point.x2
         ball.close()
-        self.assertAlmostEqual(ball.past.known, 1.0 / (1.0 / 300.0 + np.radians(2.0) ** 2) + curve, delta=1e-4 * curve)
+        known = ball.past.known - 1.0 / (1.0 / 300.0 + np.radians(2.0) ** 2)
+        self.assertAlmostEqual(known, curve, delta=0.02 * curve)
         self.assertAlmostEqual(ball.point.x1 @ ball.sums.cross(ball.point.heading) @ ball.point.x2, left, delta=1e-9 * abs(left))
 
     def test_a_gap_before_an_estimate_leaves_nothing_behind(self):
@@ -411,14 +427,15 @@ X, Y, Z = np.eye(3)
 MOUNT = rotation(np.array([0.6, 0.0, 0.8]), 0.9)
 
 
-def windows_of(*motions, r1=X, r2=X, seconds=5.0, heading_bound=0.02, is_joint=True, mount=MOUNT, heading_error=0.0):
+def windows_of(*motions, r1=X, r2=X, seconds=5.0, heading_bound=0.02, is_joint=True, mount=MOUNT, heading_error=0.0, moved=0.0, bound2=0.03,
+               length2=0.25):
     """Windows after motions of so many seconds each. r2 is given in the frame that sensor 2 would have without its mount."""
-    windows, begin, point = br.Windows(), 0.0, br.Point(np.r_[0.2 * r1, 0.25 * mount.T @ r2])
+    windows, begin, point = br.Windows(), 0.0, br.Point(np.r_[0.2 * r1, length2 * mount.T @ r2])
     for turns in motions:
         motion = Motion(*turns, mount=mount)
         for pair in motion.ticks(begin, seconds):
             if windows.add(*pair, unit(motion.heading + heading_error)):
-                windows.close(point, heading_bound, is_joint)
+                windows.close(point, unit(motion.heading + heading_error + moved), heading_bound, bound2, is_joint)
         begin += seconds
     return windows
 
@@ -434,15 +451,17 @@ class WindowsTest(unittest.TestCase):
         bent = windows_of(BEND).kept
         self.assertEqual([axis.windows for axis in bent], [1, 0])
         self.assertLess(br.line_angle(bent[0].direction, Y), 1e-6)
-        self.assertAlmostEqual(bent[0].bound, np.radians(2.0) + 0.5 * 0.02, delta=1e-6)
+        self.assertAlmostEqual(bent[0].bound, np.hypot(np.radians(2.0) + 0.5 * 0.02, np.radians(6.0)), delta=1e-6)
         turned_ = windows_of(TURN, r1=Z).kept
         self.assertEqual([axis.windows for axis in turned_], [0, 1])
         self.assertLess(br.line_angle(turned_[1].direction, MOUNT.T @ X), 1e-6)
 
     def test_a_heading_that_is_wrong_about_a_forearm_that_turns_alone_is_no_error(self):
         """The proximal segment rests: its rate is not there to be turned wrongly."""
-        self.assertLess(windows_of(TURN, r1=Z, heading_bound=0.4).kept[1].bound, 0.5 * np.radians(2.0) + 0.5 * 0.4)
-        self.assertAlmostEqual(windows_of(BEND, heading_bound=0.4).kept[0].bound, np.radians(2.0) + 0.5 * 0.4, delta=1e-6)
+        self.assertLess(windows_of(TURN, r1=Z, heading_bound=0.4).kept[1].bound, np.hypot(np.radians(2.0) + 0.25 * 0.4, np.radians(12.0)))
+        bent = np.hypot(np.radians(2.0) + 0.5 * 0.4, np.radians(6.0))
+        self.assertAlmostEqual(windows_of(BEND, heading_bound=0.4).kept[0].bound, bent, delta=1e-6)
+        self.assertAlmostEqual(windows_of(BEND, heading_bound=0.24, moved=0.32).kept[0].bound, bent, delta=1e-6)
         wrong = windows_of(TURN, r1=Z, heading_error=0.1, heading_bound=0.1).kept[1]
         self.assertLess(br.line_angle(wrong.direction, MOUNT.T @ X), wrong.bound)
 
@@ -455,6 +474,13 @@ class WindowsTest(unittest.TestCase):
         self.assertEqual(self.found(((Y, 0.35, 9.0),)), [True, False])  # 0.25
         self.assertEqual(self.found(((Y, 0.8, 0.25),)), [False, False])  # 0.2 rad/s
         self.assertEqual(self.found(BEND, seconds=2.5), [False, False])  # half a window
+
+    def test_a_lever_that_is_short_or_unknown_tells_nothing(self):
+        self.assertEqual(self.found(BEND, length2=0.09), [False, False])
+        self.assertEqual(self.found(BEND, length2=0.11, bound2=9.0), [True, False])  # bending never tells the lever along its own axis
+        self.assertEqual(self.found(TURN, r1=Z, length2=0.09), [False, False])
+        self.assertEqual(self.found(TURN, r1=Z, length2=0.11), [False, True])
+        self.assertEqual(self.found(TURN, r1=Z, bound2=0.126), [False, False])
 
     def test_halves_that_differ_show_no_axis(self):
         other = np.array([0.0, np.cos(0.35), np.sin(0.35)])  # 20 deg
@@ -476,7 +502,7 @@ class WindowsTest(unittest.TestCase):
                 motion = Motion(*turns)
                 for pair in motion.ticks(5.0 * k, 5.0):
                     if out.add(*pair, unit(motion.heading)):
-                        out.close(point, 0.02 if k == 0 else 0.03, True)
+                        out.close(point, unit(motion.heading), 0.02 if k == 0 else 0.03, 0.03, True)
                 out.parts = [br.Part(), br.Part()]
             return out.kept[0]
 
@@ -492,7 +518,7 @@ class WindowsTest(unittest.TestCase):
         motion = Motion((other, 0.8, 3.0), mount=MOUNT)
         for pair in motion.ticks(0.0, 5.0):
             if windows.add(*pair, unit(motion.heading)):
-                windows.close(point, 0.02, True)
+                windows.close(point, unit(motion.heading), 0.02, 0.03, True)
         self.assertLess(br.line_angle(windows.kept[0].direction, other), 1e-6)
 
     def test_windows_that_agree_are_one_sum(self):
@@ -501,7 +527,13 @@ class WindowsTest(unittest.TestCase):
         kept = windows_of(BEND, ((other, 0.8, 3.0),), heading_bound=0.2).kept[0]
         self.assertEqual(kept.windows, 3)
         self.assertLess(br.line_angle(kept.direction, np.array([0.0, np.cos(0.085), np.sin(0.085)])), 0.01)
-        self.assertGreater(kept.bound, np.radians(2.0) + 0.5 * 0.2 + 0.5 * np.tan(0.08))
+        self.assertGreater(kept.bound, np.hypot(np.radians(2.0) + 0.5 * 0.2 + 0.5 * np.tan(0.08), np.radians(3.0)))
+
+    def test_the_last_twelve_windows_count(self):
+        other = np.array([0.0, np.cos(0.1), np.sin(0.1)])
+        kept = windows_of(BEND, ((other, 0.8, 3.0),), seconds=75.0).kept[0]
+        self.assertEqual(kept.windows, 12)
+        self.assertLess(br.line_angle(kept.direction, other), 0.02)
 
 
 if __name__ == "__main__":

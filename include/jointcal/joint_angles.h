@@ -100,7 +100,7 @@ jcal_joint_angles_t jcal_two_dof_angles(jcal_quat_t q_b2_b1);
 /// `toward1`, by ISB to the person's right, x is forward.
 ///
 /// Inputs:   q_s1_e1, q_s2_e2, heading_rad  as of jcal_joint_orientation, in the pose; toward1  a direction in sensor frame 1.
-/// Errors:   JCAL_ERR_ARG (null, orientations or heading that are none, toward1 without a level part); out untouched.
+/// Errors:   JCAL_ERR_ARG (null, orientations or heading that are none, toward1 within 11 deg of upright); out untouched.
 /// Threads:  no state.
 jcal_status_t jcal_frames_pose(jcal_quat_t q_s1_e1, jcal_quat_t q_s2_e2, float heading_rad, jcal_vec3_t toward1,
                                jcal_joint_frames_t *out);

@@ -3,8 +3,13 @@
 /// A person's joint with two axes, like elbow and forearm: the axis of bending, fixed in the proximal segment, and the axis of turning,
 /// fixed in the distal one; with heading and levers of ball.h.
 ///
-/// Each axis is found where a motion is mostly about it: bend only, then turn only, for some seconds each, in either order and as often as
-/// one likes. No stretch of time needs both, and what was found stays. Heading, axis 1 and axis 2 become known each by itself.
+/// Each axis is found where a motion is mostly about it: bend only, then turn only, for some seconds each, as often as one likes. No stretch
+/// of time needs both, and what was found stays. Heading, axis 1 and axis 2 become known each by itself; which axis a motion is about is
+/// told by the lever of sensor 2, which bending shows best.
+///
+/// Axis 2 is the distal segment's own line, as in a forearm: bending is what happens across the lever from the joint to sensor 2, turning what
+/// happens along it. So sensor 2 must be on that segment, at least 10 cm from the joint and nearer to the line than to the joint. For
+/// other joints with two axes, such as a wrist or a rig whose second axis is across its lever, use two_dof.h.
 ///
 ///     static jcal_two_axes_t elbow;
 ///     const jcal_two_axes_config_t config = jcal_two_axes_config_default();
@@ -39,7 +44,7 @@ typedef struct {
     jcal_vec3_t axis1;  ///< Unit axis of bending in sensor frame 1; zero while nothing is known of it.
     jcal_vec3_t axis2;  ///< Unit axis of turning in sensor frame 2; likewise.
     float uncertainty1_rad, uncertainty2_rad;  ///< 95 % bounds; a right angle if unknown.
-    uint8_t windows1, windows2;            ///< Windows of 5 s, half of each new, that agree on the axis; at most 255.
+    uint8_t windows1, windows2;  ///< Windows of 5 s, half of each new, that agree on the axis; the last 12 count.
     float progress_axis1, progress_axis2;  ///< 0 to 1: how far each is on the way to its limit.
 } jcal_two_axes_result_t;
 

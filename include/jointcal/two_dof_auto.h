@@ -42,9 +42,10 @@ typedef struct {
     /// orientations of jcal_two_dof_auto_orientation; the carrying angle is 0 until both axes are known.
     jcal_two_dof_result_t two_dof;
     jcal_model_t model;
-    jcal_ready_for_t ready_for;              ///< JCAL_FOR_AXES, JCAL_FOR_ANGLES or nothing.
-    jcal_ball_result_t ball;                 ///< Levers and heading of the functional model, whichever is in use.
-    bool for_heading, for_axis1, for_axis2;  ///< What the functional model knows, each by itself.
+    jcal_ready_for_t ready_for;  ///< JCAL_FOR_AXES, JCAL_FOR_ANGLES or nothing.
+    jcal_ball_result_t ball;     ///< Levers and heading of the functional model, whichever is in use.
+    bool for_heading, for_axis1,
+        for_axis2;  ///< What is known: by the rigid model all once it is ready, by the other each by itself.
 } jcal_two_dof_auto_result_t;
 
 /// The defaults of both models.

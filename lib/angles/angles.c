@@ -56,6 +56,9 @@ static jcal_quat_t shortest_turn(jcal_vec3_t from, jcal_vec3_t to)
     return jcal_quat_normalise(jcal_quat(sin_angle, v.x, v.y, v.z));
 }
 
+/* Square of the least level part of the direction that a pose is aligned with: 11 deg from upright. */
+#define POSE_LEVEL2_MIN 0.04f
+
 /* The unit vector along an axis; false if it has no direction. */
 static bool direction_of(jcal_vec3_t axis, jcal_vec3_t *out)
 {
@@ -142,9 +145,13 @@ jcal_status_t jcal_frames_pose(jcal_quat_t q_s1_e1, jcal_quat_t q_s2_e2, float h
     if ((out == NULL) || !jcal_is_unit(q_s1_e1) || !jcal_is_unit(q_s2_e2) || !can_be_turned_by(heading_rad)) {
         return JCAL_ERR_ARG;
     }
-    const jcal_vec3_t z = jcal_quat_rotate(jcal_quat_normalise(q_s1_e1), toward1);
+    jcal_vec3_t right;
     jcal_vec3_t level;
-    if (!direction_of(jcal_vec3(z.x, z.y, 0.0f), &level)) {
+    if (!direction_of(toward1, &right)) {
+        return JCAL_ERR_ARG;
+    }
+    const jcal_vec3_t z = jcal_quat_rotate(jcal_quat_normalise(q_s1_e1), right);
+    if ((((z.x * z.x) + (z.y * z.y)) < POSE_LEVEL2_MIN) || !direction_of(jcal_vec3(z.x, z.y, 0.0f), &level)) {
         return JCAL_ERR_ARG;
     }
     const float w = sqrtf(0.5f * (1.0f + jcal_max(level.x, -1.0f))); /* half the angle of `level` about z */

@@ -74,11 +74,12 @@ static void follow_carrying(jcal_two_dof_auto_t *self, uint64_t t_us)
     const jcal_axis_found_t *const found = self->functional.joint.windows.found;
     const uint64_t step_us = t_us - self->last_us;
     self->last_us = t_us;
-    if ((found[0].windows == 0u) || (found[1].windows == 0u) || !self->functional.joint.ball.track.known) {
+    const jcal_quat_t relative = jcal_two_axes_pair_relative(&self->functional);
+    if ((found[0].windows == 0u) || (found[1].windows == 0u) || isnan(relative.w)) {
         self->has_carrying = false;
         return;
     }
-    const jcal_vec3_t axis2 = jcal_quat_rotate(jcal_two_axes_pair_relative(&self->functional), found[1].axis);
+    const jcal_vec3_t axis2 = jcal_quat_rotate(relative, found[1].axis);
     const float sine = jcal_vec3_dot(found[0].axis, axis2);
     const float step_s = (step_us < STEP_MAX_US) ? (1e-6f * (float)(uint32_t)step_us) : 0.0f;
     const float share = self->has_carrying ? (step_s / (step_s + CARRYING_S)) : 1.0f;
@@ -167,10 +168,11 @@ jcal_status_t jcal_two_dof_auto_get(const jcal_two_dof_auto_t *self, jcal_two_do
     (void)jcal_two_dof_get(&self->rigid, &out->two_dof);
     (void)jcal_two_axes_pair_get(&self->functional, &functional);
     out->ball = functional.ball;
-    out->for_heading = functional.for_heading;
-    out->for_axis1 = functional.for_axis1;
-    out->for_axis2 = functional.for_axis2;
     const jcal_head_t *const rigid = &out->two_dof.head;
+    const bool rigid_ready = rigid->status == JCAL_READY;
+    out->for_heading = rigid_ready || functional.for_heading;
+    out->for_axis1 = rigid_ready || functional.for_axis1;
+    out->for_axis2 = rigid_ready || functional.for_axis2;
     const bool knows_axes = (functional.windows1 > 0u) || (functional.windows2 > 0u);
     const bool is_joint = functional.ball.uncertainty_heading_rad < JCAL_BOUND_UNKNOWN_RAD;
     if (!is_settled(rigid) && is_joint && (knows_axes || (rigid->reason == JCAL_REASON_DOES_NOT_FIT))) {

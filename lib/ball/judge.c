@@ -5,6 +5,7 @@
 
 #include "ball/sums.h"
 #include "joint/hysteresis.h"
+#include "jointcal/head.h"
 #include "jointcal/status.h"
 #include "math/scalar.h"
 
@@ -27,6 +28,12 @@
 bool jcal_ball_is_joint(const jcal_ball_t *self)
 {
     return self->verdict.agreed >= AGREED_MIN;
+}
+
+bool jcal_ball_knows_heading(const jcal_ball_t *self)
+{
+    const jcal_ball_verdict_t *const v = &self->verdict;
+    return self->track.known && (v->heading_rad < JCAL_BOUND_UNKNOWN_RAD);
 }
 
 /// What speaks against one joint.
@@ -66,13 +73,16 @@ void jcal_ball_judge(jcal_ball_t *self)
     const bool was_ready = v->status == (uint8_t)JCAL_READY;
     const float slack = was_ready ? JCAL_HYSTERESIS : 1.0f;
     v->stiffness = jcal_ball_sums_stiffness(&self->sums);
-    const jcal_reason_t against = find_objection(self, slack);
+    const jcal_reason_t found = find_objection(self, slack);
+    const jcal_reason_t against =
+        (self->refused && (found == JCAL_REASON_NO_MOTION)) ? JCAL_REASON_NOT_ONE_JOINT : found;
     v->agreed =
         (against != JCAL_REASON_NONE) ? 0u : (uint8_t)((v->agreed < AGREED_MIN) ? (v->agreed + 1u) : AGREED_MIN);
     v->for_heading = v->heading_rad <= (slack * self->cfg.max_heading_rad);
     const bool is_ready = jcal_ball_is_joint(self) && v->for_heading;
-    v->for_center1 = is_ready && (v->bound1_m <= (slack * self->cfg.max_lever_m));
-    v->for_center2 = is_ready && (v->bound2_m <= (slack * self->cfg.max_lever_m));
+    const float max_m = self->cfg.max_lever_m;
+    v->for_center1 = is_ready && (v->bound1_m <= (((was_ready && v->for_center1) ? JCAL_HYSTERESIS : 1.0f) * max_m));
+    v->for_center2 = is_ready && (v->bound2_m <= (((was_ready && v->for_center2) ? JCAL_HYSTERESIS : 1.0f) * max_m));
     const jcal_reason_t open = is_ready ? JCAL_REASON_NONE : JCAL_REASON_UNCERTAIN;
     const jcal_reason_t reason = (against != JCAL_REASON_NONE) ? against : open;
     v->status = (uint8_t)(is_ready ? JCAL_READY : JCAL_COLLECTING);

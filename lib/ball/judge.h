@@ -14,4 +14,7 @@ void jcal_ball_judge(jcal_ball_t *self);
 /// True if nothing has spoken against one joint for three judgements.
 bool jcal_ball_is_joint(const jcal_ball_t *self);
 
+/// True if there is a heading of this moment, with a bound; whether the bound holds is another question, jcal_ball_is_joint.
+bool jcal_ball_knows_heading(const jcal_ball_t *self);
+
 #endif /* JCAL_BALL_JUDGE_H */

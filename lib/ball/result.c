@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// What the ball joint says.
+#include "ball/judge.h"
 #include "joint/head.h"
 #include "jointcal/ball.h"
 #include "jointcal/quat.h"
@@ -37,9 +38,9 @@ jcal_status_t jcal_ball_get(const jcal_ball_t *self, jcal_ball_result_t *out)
         out->joint_to_sensor1_m = self->point.r1;
         out->joint_to_sensor2_m = self->point.r2;
         out->speed_m_s = sqrtf(jcal_max(0.5f * self->point.speed2, 0.0f));
-        out->heading.known = self->track.known;
+        out->heading.known = jcal_ball_knows_heading(self);
         out->heading.heading_rad =
-            self->track.known ? jcal_atan2(self->track.heading.im, self->track.heading.re) : 0.0f;
+            out->heading.known ? jcal_atan2(self->track.heading.im, self->track.heading.re) : 0.0f;
         out->progress_heading = jcal_head_progress(out->uncertainty_heading_rad, self->cfg.max_heading_rad);
         out->progress_center1 = jcal_head_progress(out->uncertainty1_m, self->cfg.max_lever_m);
         out->progress_center2 = jcal_head_progress(out->uncertainty2_m, self->cfg.max_lever_m);
@@ -49,7 +50,7 @@ jcal_status_t jcal_ball_get(const jcal_ball_t *self, jcal_ball_result_t *out)
 
 jcal_quat_t jcal_ball_relative(const jcal_ball_t *self, jcal_quat_t orientation1, jcal_quat_t orientation2)
 {
-    if ((self == NULL) || !self->track.known) {
+    if ((self == NULL) || !jcal_ball_knows_heading(self)) {
         return jcal_quat(NAN, NAN, NAN, NAN);
     }
     const jcal_plane_t h = self->track.heading;

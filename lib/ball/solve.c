@@ -14,6 +14,8 @@
 /// Share of it that never averages out, and motion that takes one independent reading, s.
 #define LASTING 0.16f
 #define READING_S 1.0f
+/// Share of the mean diagonal that keeps levers in directions in which nothing turned at zero.
+#define RIDGE 3e-4f
 
 float jcal_ball_weight(const jcal_ball_sums_t *sums, const jcal_ball_point_t *point)
 {
@@ -29,7 +31,7 @@ static void find_levers(const jcal_ball_sums_t *sums, jcal_ball_point_t *point)
 {
     float x[16];
     jcal_levers_cross(&sums->levers, point->heading, x);
-    const jcal_levers_t found = jcal_levers_solve(&sums->levers, x);
+    const jcal_levers_t found = jcal_levers_solve(&sums->levers, x, RIDGE);
     const float motion_s = jcal_max(sums->motion_s, FLT_MIN);
     point->r1 = found.r1;
     point->r2 = found.r2;
@@ -79,10 +81,11 @@ void jcal_ball_round(const jcal_ball_sums_t *sums, const jcal_ball_past_t *past,
     }
 }
 
-void jcal_ball_past_add(jcal_ball_past_t *past, const jcal_ball_sums_t *sums, const jcal_ball_point_t *point)
+void jcal_ball_past_add(jcal_ball_past_t *past, const jcal_ball_point_t *point, const float *left)
 {
-    const jcal_plane_t turned = jcal_plane_times(point->heading[1], pull_of(sums, point, 1u));
-    past->known = jcal_ball_past_pull(past) + jcal_max(turned.re, 0.0f);
+    const float before = jcal_ball_past_pull(past);
+    const float own = (left[0] > 0.0f) ? (left[2] - JCAL_BALL_PULL - before) : 0.0f;
+    past->known = before + jcal_max(own, 0.0f);
     past->heading = point->heading[1];
 }
 

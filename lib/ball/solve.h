@@ -27,8 +27,9 @@ float jcal_ball_past_pull(const jcal_ball_past_t *past);
 void jcal_ball_round(const jcal_ball_sums_t *sums, const jcal_ball_past_t *past, jcal_ball_point_t *point,
                      unsigned part);
 
-/// The closed block of `point` is about to be merged: its heading and what it knows of it join what is known of the past.
-void jcal_ball_past_add(jcal_ball_past_t *past, const jcal_ball_sums_t *sums, const jcal_ball_point_t *point);
+/// The closed block of `point` is about to be merged: its heading and what it knows of it join what is known of the past. `left`, as of
+/// ball/bounds.h: information about both headings once the levers have taken their share; all of the closed block's that is no tie.
+void jcal_ball_past_add(jcal_ball_past_t *past, const jcal_ball_point_t *point, const float *left);
 
 /// All headings of `point` turn by 45 deg times `number`.
 void jcal_ball_turn(jcal_ball_point_t *point, unsigned number);

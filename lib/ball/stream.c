@@ -35,6 +35,10 @@
 #define FIRST_TRIALS 8u
 #define TRIAL_ROUNDS 4u
 
+/// Motion during which nothing but `not_one_joint` is said before the first `ready`, s, until everything is learnt anew: what came before the
+/// sensors were put on must not stand in the way.
+#define REFUSED_MAX_S 10.0f
+
 /// Logarithm of the odds that another solution must be ahead by before it is taken, of 1.5 readings per second of motion.
 #define AHEAD 0.5f
 #define READINGS_PER_S 1.5f
@@ -69,14 +73,36 @@ static void clear(jcal_ball_t *self)
     self->slice = (uint8_t)IDLE;
 }
 
-/// A sensor has moved: everything is learnt anew.
+/// Everything is learnt anew, but for what is known of the sensors.
 static void begin_anew(jcal_ball_t *self)
 {
-    jcal_tick_pair_t ticks = self->ticks;
-    jcal_ticks_forget(&ticks);
+    const jcal_tick_pair_t ticks = self->ticks;
+    const uint8_t status = self->verdict.status;
     clear(self);
     self->ticks = ticks;
+    self->verdict.status = (status == (uint8_t)JCAL_READY) ? (uint8_t)JCAL_COLLECTING : status;
+    self->verdict.reason = (uint8_t)JCAL_REASON_NO_MOTION;
+}
+
+/// A sensor has moved.
+static void say_moved(jcal_ball_t *self)
+{
+    begin_anew(self);
+    jcal_ticks_forget(&self->ticks);
     self->verdict.status = (uint8_t)JCAL_MOVED;
+}
+
+/// Until the next judgement no heading is known, and nothing is ready without one.
+static void lose_heading(jcal_ball_t *self)
+{
+    jcal_ball_verdict_t *const verdict = &self->verdict;
+    verdict->heading_rad = JCAL_BOUND_UNKNOWN_RAD;
+    if (verdict->status == (uint8_t)JCAL_READY) {
+        verdict->status = (uint8_t)JCAL_COLLECTING;
+        verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
+        verdict->weak = (uint8_t)JCAL_WEAK_HEADING;
+        verdict->hint = (uint8_t)JCAL_HINT_MORE_DIRECTIONS;
+    }
 }
 
 jcal_status_t jcal_ball_init(jcal_ball_t *self, const jcal_ball_config_t *config)
@@ -101,7 +127,7 @@ jcal_status_t jcal_ball_reset(jcal_ball_t *self)
 static void close(jcal_ball_t *self)
 {
     if (self->sums.block_motion_s[1] > 0.0f) {
-        jcal_ball_past_add(&self->past, &self->sums, &self->point);
+        jcal_ball_past_add(&self->past, &self->point, self->verdict.left);
         self->merged = true;
     }
     jcal_ball_sums_close(&self->sums, self->point.heading[1]); /* of a block without motion nothing is merged */
@@ -111,18 +137,16 @@ static void close(jcal_ball_t *self)
 /// Features began anew: the headings of before are not those of now.
 static void cut(jcal_ball_t *self)
 {
-    if (self->tried < FIRST_TRIALS) { /* no heading is known yet that any block could be merged with */
-        jcal_clear(&self->sums, sizeof self->sums);
-        self->tried = 0u;
-        self->has_estimate = false;
-        self->motion_s = 0.0f;
-    } else {
-        close(self);
-        close(self); /* both blocks: nothing ties their headings to what comes */
-        self->past.known = 0.0f;
+    if (!jcal_ball_is_joint(self)) { /* no heading is known that any block could be merged with */
+        begin_anew(self);
+        return;
     }
+    close(self);
+    close(self); /* both blocks: nothing ties their headings to what comes */
+    self->past.known = 0.0f;
     self->slice = (uint8_t)IDLE; /* a judgement would be of other blocks than it began with */
     jcal_ball_track_clear(self);
+    lose_heading(self);
 }
 
 jcal_status_t jcal_ball_add(jcal_ball_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
@@ -139,6 +163,7 @@ jcal_status_t jcal_ball_add(jcal_ball_t *self, const jcal_tick_t *tick1, const j
         self->motion_s += weights.motion_s;
         jcal_ball_sums_add(&self->sums, tick1, tick2, &weights);
         jcal_ball_track_add(self, tick1, tick2, weights.motion_s);
+        self->refused_s += weights.motion_s; /* until a judgement says otherwise */
     } else {
         cut(self); /* work enough for one tick, which is left out */
     }
@@ -169,12 +194,7 @@ static void compare(jcal_ball_t *self)
         if (!goes_on) {
             verdict->agreed = 0u;
             jcal_ball_track_begin(self);
-        }
-        if (was_ready && !goes_on) {
-            verdict->status = (uint8_t)JCAL_COLLECTING;
-            verdict->reason = (uint8_t)JCAL_REASON_UNCERTAIN;
-            verdict->weak = (uint8_t)JCAL_WEAK_HEADING;
-            verdict->hint = (uint8_t)JCAL_HINT_MORE_DIRECTIONS;
+            lose_heading(self);
         }
     }
     self->turn = (uint8_t)((self->turn + 1u) % FIRST_TRIALS);
@@ -217,7 +237,14 @@ static void work(jcal_ball_t *self)
         jcal_ball_bound(self, slice - TRIAL_END);
     } else {
         jcal_ball_judge(self);
+        if (!self->was_ready) {
+            jcal_ball_track_begin(self); /* what it was until now came from levers that were hardly known */
+        }
         self->was_ready = self->was_ready || (self->verdict.status == (uint8_t)JCAL_READY);
+        if (self->verdict.reason != (uint8_t)JCAL_REASON_NOT_ONE_JOINT) {
+            self->refused_s = 0.0f;
+            self->refused = false;
+        }
     }
     self->slice = next_of(self, slice);
 }
@@ -226,11 +253,18 @@ static void work(jcal_ball_t *self)
 static bool tend(jcal_ball_t *self)
 {
     if (self->was_ready && jcal_ball_track_alarm(&self->track)) {
-        begin_anew(self);
+        say_moved(self);
         return true;
     }
     if (self->slice < (uint8_t)IDLE) {
         return false;
+    }
+    if (!self->was_ready && (self->refused_s > REFUSED_MAX_S)) {
+        begin_anew(self);
+        self->refused = true;
+        self->verdict.reason = (uint8_t)JCAL_REASON_NOT_ONE_JOINT; /* until there is motion enough to say otherwise */
+        self->verdict.hint = (uint8_t)JCAL_HINT_CHECK_SENSORS;
+        return true;
     }
     if (jcal_ball_sums_full(&self->sums)) {
         close(self);

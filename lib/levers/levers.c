@@ -13,8 +13,6 @@
 
 #include <float.h>
 
-#define RIDGE 0.005f
-
 /// sum (10, packed) <- sum + weight [U B]' [U B].
 static void add_lever(float *sum, float weight, const jcal_tick_t *tick)
 {
@@ -125,15 +123,15 @@ static float product_of(const float *x, const float *r1, const float *r2)
            (r1[2] * row_times(&x[12], v));
 }
 
-jcal_levers_t jcal_levers_solve(const jcal_lever_sums_t *self, const float *x)
+jcal_levers_t jcal_levers_solve(const jcal_lever_sums_t *self, const float *x, float ridge)
 {
     float h[JCAL_SYM_SIZE(JCAL_LEVER_UNKNOWNS)];
     float r[JCAL_LEVER_UNKNOWNS];
     jcal_levers_normal(self, x, h, r);
     const float trace = h[0] + h[2] + h[5] + h[9] + h[14] + h[20];
-    const float ridge = (RIDGE / (float)JCAL_LEVER_UNKNOWNS * trace) + FLT_MIN;
+    const float added = (ridge / (float)JCAL_LEVER_UNKNOWNS * trace) + FLT_MIN;
     for (size_t i = 0u; i < JCAL_LEVER_UNKNOWNS; ++i) {
-        h[jcal_sym_at(i, i)] += ridge;
+        h[jcal_sym_at(i, i)] += added;
     }
     if (jcal_chol6_factor(h)) {
         jcal_chol6_solve(h, r);

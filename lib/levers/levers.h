@@ -37,9 +37,9 @@ void jcal_levers_cross(const jcal_lever_sums_t *self, const jcal_plane_t *headin
 /// H (6 x 6, packed) and g of the normal equations H r = g.
 void jcal_levers_normal(const jcal_lever_sums_t *self, const float *x, float *h, float *g);
 
-/// The levers that leave least, with X (4 x 4). A ridge of 0.5 % of the mean diagonal keeps directions in which nothing turned at zero;
-/// zero if the equations have no solution. Cost: about 250 multiply-adds.
-jcal_levers_t jcal_levers_solve(const jcal_lever_sums_t *self, const float *x);
+/// The levers that leave least, with X (4 x 4). A ridge, a share `ridge` of the mean diagonal, keeps directions in which nothing turned at
+/// zero; zero if the equations have no solution. Cost: about 250 multiply-adds.
+jcal_levers_t jcal_levers_solve(const jcal_lever_sums_t *self, const float *x, float ridge);
 
 /// The pull of block `b` on its heading: its share of half the sum of squares is -Re(heading pull).
 jcal_plane_t jcal_levers_pull(const jcal_lever_sums_t *self, size_t b, jcal_vec3_t r1, jcal_vec3_t r2);

@@ -32,8 +32,8 @@ jcal_status_t jcal_two_axes_get(const jcal_two_axes_t *self, jcal_two_axes_resul
     out->windows2 = second->windows;
     out->uncertainty1_rad = first->bound_rad;
     out->uncertainty2_rad = second->bound_rad;
-    out->for_axis1 = is_joint && (first->bound_rad <= self->cfg.max_bound_rad);
-    out->for_axis2 = is_joint && (second->bound_rad <= self->cfg.max_bound_rad);
+    out->for_axis1 = is_joint && !first->in_doubt && (first->bound_rad <= self->cfg.max_bound_rad);
+    out->for_axis2 = is_joint && !second->in_doubt && (second->bound_rad <= self->cfg.max_bound_rad);
     out->progress_axis1 = jcal_head_progress(first->bound_rad, self->cfg.max_bound_rad);
     out->progress_axis2 = jcal_head_progress(second->bound_rad, self->cfg.max_bound_rad);
     jcal_head_t *const head = &out->ball.head;

@@ -10,6 +10,9 @@
 
 #include <stddef.h>
 
+/// Motion of what is no joint, s, after which axes are in doubt.
+#define LOST_S 5.0f
+
 typedef char jcal_two_axes_fits_its_budget[(sizeof(jcal_two_axes_t) <= 1536u) ? 1 : -1];
 
 static void clear(jcal_two_axes_t *self)
@@ -39,24 +42,35 @@ jcal_status_t jcal_two_axes_reset(jcal_two_axes_t *self)
     return (self == NULL) ? JCAL_ERR_ARG : jcal_two_axes_init(self, &self->cfg);
 }
 
+/// Axes that were found are in doubt once the joint has been lost for a while: what comes back may be another mounting.
+static void doubt(jcal_two_axes_t *self)
+{
+    if (self->ball.refused_s > LOST_S) {
+        self->windows.found[0].in_doubt = true;
+        self->windows.found[1].in_doubt = true;
+    }
+}
+
 jcal_status_t jcal_two_axes_add(jcal_two_axes_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
 {
     if ((self == NULL) || (tick1 == NULL) || (tick2 == NULL)) {
         return JCAL_ERR_ARG;
     }
-    const uint32_t epoch1 = self->ball.ticks.epoch1;
-    const uint32_t epoch2 = self->ball.ticks.epoch2;
+    const bool had_estimate = self->ball.has_estimate;
     const jcal_status_t status = jcal_ball_add(&self->ball, tick1, tick2);
     if (status != JCAL_OK) {
         return status;
     }
-    if ((self->ball.ticks.epoch1 != epoch1) || (self->ball.ticks.epoch2 != epoch2)) {
-        jcal_axis_windows_cut(&self->windows);
-    } else if (self->ball.track.known) {
+    if (had_estimate && !self->ball.has_estimate) {
+        clear(self);
+    }
+    if (self->ball.track.known) {
         jcal_axis_windows_add(&self->windows, tick1, tick2, self->ball.track.heading);
     } else {
-        /* without a heading there is no relative rate */
+        jcal_axis_windows_cut(
+            &self->windows); /* without a heading there is no relative rate, and none of before fits the next one */
     }
+    doubt(self);
     return JCAL_OK;
 }
 
@@ -65,17 +79,19 @@ jcal_status_t jcal_two_axes_step(jcal_two_axes_t *self)
     if (self == NULL) {
         return JCAL_ERR_ARG;
     }
-    const bool had_moved = self->ball.verdict.status == (uint8_t)JCAL_MOVED;
+    const bool had_estimate = self->ball.has_estimate;
     const jcal_status_t status = jcal_ball_step(&self->ball);
-    if (!had_moved && (self->ball.verdict.status == (uint8_t)JCAL_MOVED)) {
+    if (had_estimate && !self->ball.has_estimate) { /* all is learnt anew */
         clear(self);
         return status;
     }
     if (status != JCAL_IDLE) {
         return status;
     }
-    const jcal_window_context_t context = {self->ball.point.r1, self->ball.point.r2, self->ball.verdict.heading_rad,
-                                           jcal_ball_is_joint(&self->ball)};
+    const jcal_ball_t *const ball = &self->ball;
+    const jcal_window_context_t context = {ball->point.r1,         ball->point.r2,
+                                           ball->track.heading,    ball->verdict.heading_rad,
+                                           ball->verdict.bound2_m, jcal_ball_is_joint(ball)};
     if (!jcal_axis_windows_step(&self->windows, &context)) {
         return JCAL_IDLE;
     }

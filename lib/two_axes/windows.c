@@ -29,14 +29,23 @@
 #define SKIN_COSINE 0.85f
 #define ACROSS_COSINE 0.5f
 #define ALONG_COSINE 0.9f
+/// The distal lever tells bending from turning if it is so long across the one or along the other, m; for the latter with a bound of at most
+/// so much of it.
+#define ARM_MIN_M 0.1f
+#define LEVER_BOUND_SHARE 0.5f
 
 /// Bound of an axis.
 #define AXIS_FLOOR_RAD (2.0f * JCAL_RAD_PER_DEG)
 #define AXIS_SHARE 0.5f
 #define AXIS_HEADING_SHARE 0.5f
 
-/// Windows in a row that say otherwise, before they are believed.
+/// A window may show a line that no axis has: of both motions at once, in phase. It takes several to know; by so much one may be off.
+#define LONE1_RAD (6.0f * JCAL_RAD_PER_DEG)
+#define LONE2_RAD (12.0f * JCAL_RAD_PER_DEG)
+
+/// Windows in a row that say otherwise, before they are believed; and how many an axis remembers.
 #define AGAINST_MAX 2u
+#define REMEMBERED 12u
 
 /// Slices of the work on a window.
 enum { HALF1, HALF2, WINDOW1, WINDOW2, AXIS, IDLE };
@@ -96,8 +105,9 @@ void jcal_axis_windows_add(jcal_axis_windows_t *self, const jcal_tick_t *tick1, 
     const jcal_vec3_t rate2 = turned(heading, jcal_turn_times(tick2->turn, tick2->gyr));
     const jcal_vec3_t relative = jcal_vec3_sub(rate2, rate1);
     const jcal_plane_t back = {heading.re, -heading.im};
-    const float square = jcal_vec3_dot(relative, relative);
-    const float weight = tick1->dt_s / (1.0f + (square / FAST_RATE2));
+    part->heading = (part->time_s > 0.0f) ? part->heading : heading;
+    const float relative2 = jcal_vec3_dot(relative, relative);
+    const float weight = tick1->dt_s / (1.0f + (relative2 / FAST_RATE2));
     add_square(part->seen[0], weight, seen_from(tick1->turn, relative));
     add_square(part->seen[1], weight, seen_from(tick2->turn, turned(back, relative)));
     for (size_t k = 0u; k < 3u; ++k) {
@@ -108,7 +118,7 @@ void jcal_axis_windows_add(jcal_axis_windows_t *self, const jcal_tick_t *tick1, 
         part->mean[6u + k] += in1.z;
     }
     part->carried2 += weight * jcal_vec3_dot(tick1->gyr, tick1->gyr);
-    part->motion_s += tick1->dt_s * square / (square + REST_RATE2);
+    part->motion_s += tick1->dt_s * relative2 / (relative2 + REST_RATE2);
     part->time_s += tick1->dt_s;
     if (part->time_s >= PART_S) {
         close(self);
@@ -154,21 +164,44 @@ static bool is_worth_a_look(const jcal_axis_windows_t *self)
            ((0.5f * (3.0f - mean2)) >= BEND_MIN2);
 }
 
-/// Which axis the window shows: 0, 1, or 2 for none.
+/// Which axis the window shows: 0, 1, or 2 for none. A forearm that only turns says nothing of its lever along itself, which then looks
+/// short and across; so a lever must be long in the direction that decides.
 static uint8_t kind_of(const jcal_axis_windows_t *self, const jcal_window_context_t *context)
 {
     const float skin = fabsf(jcal_vec3_dot(self->main[0], jcal_vec3_normalise(context->r1)));
-    const float along = fabsf(jcal_vec3_dot(self->main[1], jcal_vec3_normalise(context->r2)));
+    const float length = jcal_vec3_norm(context->r2);
+    const float along = fabsf(jcal_vec3_dot(self->main[1], context->r2));
+    const float across = sqrtf(jcal_max((length * length) - (along * along), 0.0f));
     if (!context->is_joint || (jcal_max(self->sideways[0], self->sideways[1]) > SIDEWAYS_MAX) || (skin > SKIN_COSINE)) {
         return 2u;
     }
-    return (uint8_t)((along <= ACROSS_COSINE) ? 0u : ((along >= ALONG_COSINE) ? 1u : 2u));
+    if ((along <= (ACROSS_COSINE * length)) && (across >= ARM_MIN_M)) {
+        return 0u;
+    }
+    const bool is_known = context->bound2_m <= (LEVER_BOUND_SHARE * length);
+    return ((along >= (ALONG_COSINE * length)) && (along >= ARM_MIN_M) && is_known) ? 1u : 2u;
 }
 
-static float bound_of(float sideways, float heading_rad)
+static float square(float x)
 {
-    return jcal_min(AXIS_FLOOR_RAD + (AXIS_SHARE * sqrtf(sideways)) + (AXIS_HEADING_SHARE * heading_rad),
-                    JCAL_BOUND_UNKNOWN_RAD);
+    return x * x;
+}
+
+/// Bound of an axis of so many windows, which overlap by half.
+static float bound_of(float sideways, float heading_rad, unsigned kind, unsigned windows)
+{
+    const float lone = ((kind == 0u) ? LONE1_RAD : LONE2_RAD) / (0.5f * (float)(windows + 1u));
+    const float seen = AXIS_FLOOR_RAD + (AXIS_SHARE * sqrtf(sideways)) + (AXIS_HEADING_SHARE * heading_rad);
+    return jcal_min(sqrtf(square(seen) + square(lone)), JCAL_BOUND_UNKNOWN_RAD);
+}
+
+/// Bound of the headings that the window was seen with: they have moved since, and what is known is known of this moment's.
+static float heading_bound(const jcal_axis_windows_t *self, const jcal_window_context_t *context)
+{
+    const jcal_plane_t off1 = jcal_plane_against(self->part[1].heading, context->heading);
+    const jcal_plane_t off2 = jcal_plane_against(self->part[2].heading, context->heading);
+    const float off = jcal_max(fabsf(jcal_atan2(off1.im, off1.re)), fabsf(jcal_atan2(off2.im, off2.re)));
+    return sqrtf(square(context->heading_rad) + square(off));
 }
 
 /// Takes the window for its axis; true if its sums join those of others.
@@ -180,22 +213,25 @@ static bool take(jcal_axis_windows_t *self, const jcal_window_context_t *context
     const float total = seen[0] + seen[2] + seen[5];
     const float carried = sqrtf((self->part[1].carried2 + self->part[2].carried2) / jcal_max(total, FLT_MIN));
     /* In the frame of the sensor that turns, a heading is wrong about what both share only. */
-    const float heading_rad = context->heading_rad * ((self->kind == 1u) ? jcal_min(carried, 1.0f) : 1.0f);
-    const float bound = bound_of(self->sideways[self->kind], heading_rad);
+    const float heading_rad = heading_bound(self, context) * ((self->kind == 1u) ? jcal_min(carried, 1.0f) : 1.0f);
+    const float bound = bound_of(self->sideways[self->kind], heading_rad, self->kind, 1u);
     const float cosine = fabsf(jcal_vec3_dot(found->axis, self->main[self->kind]));
-    const bool agrees = (found->windows > 0u) && (jcal_atan2(sqrtf(jcal_max(1.0f - (cosine * cosine), 0.0f)), cosine) <=
-                                                  (found->bound_rad + bound));
-    if (agrees) {
+    const float off = jcal_atan2(sqrtf(jcal_max(1.0f - (cosine * cosine), 0.0f)), cosine);
+    if ((found->windows > 0u) && ((off * off) <= ((found->bound_rad * found->bound_rad) + (bound * bound)))) {
+        const unsigned windows = (found->windows < REMEMBERED) ? found->windows : (REMEMBERED - 1u);
+        const float kept = (float)windows / (float)found->windows; /* of the last twelve or so: skin and straps creep */
         for (size_t i = 0u; i < 6u; ++i) {
-            found->seen[i] += seen[i];
+            found->seen[i] = (kept * found->seen[i]) + seen[i];
         }
-        found->heading_rad = jcal_min(found->heading_rad, heading_rad);
-        found->windows = (uint8_t)((found->windows < UINT8_MAX) ? (found->windows + 1u) : UINT8_MAX);
+        found->heading_rad += (heading_rad - found->heading_rad) / (float)(windows + 1u);
+        found->windows = (uint8_t)(windows + 1u);
         found->against = 0u;
+        found->in_doubt = false;
         return true;
     }
     found->against = (uint8_t)(found->against + 1u);
-    if ((found->windows == 0u) || (bound < found->bound_rad) || (found->against >= AGAINST_MAX)) {
+    const bool is_better = (found->windows <= 1u) && (bound < found->bound_rad);
+    if ((found->windows == 0u) || is_better || found->in_doubt || (found->against >= AGAINST_MAX)) {
         for (size_t i = 0u; i < 6u; ++i) {
             found->seen[i] = seen[i];
         }
@@ -204,6 +240,7 @@ static bool take(jcal_axis_windows_t *self, const jcal_window_context_t *context
         found->heading_rad = heading_rad;
         found->windows = 1u;
         found->against = 0u;
+        found->in_doubt = false;
         found->kept_sign = 0;
     }
     return false;
@@ -237,7 +274,7 @@ bool jcal_axis_windows_step(jcal_axis_windows_t *self, const jcal_window_context
         float sideways;
         const jcal_vec3_t axis = main_of(found->seen, &sideways);
         found->axis = (jcal_vec3_dot(axis, found->axis) < 0.0f) ? jcal_vec3_scale(axis, -1.0f) : axis;
-        found->bound_rad = bound_of(sideways, found->heading_rad);
+        found->bound_rad = bound_of(sideways, found->heading_rad, self->kind, found->windows);
         break;
     }
     default:

@@ -16,9 +16,11 @@
 
 /// What a window is judged with.
 typedef struct {
-    jcal_vec3_t r1, r2;  ///< Levers.
-    float heading_rad;   ///< Bound of the heading.
-    bool is_joint;       ///< Nothing speaks against one joint.
+    jcal_vec3_t r1, r2;    ///< Levers.
+    jcal_plane_t heading;  ///< That of this moment, and its bound.
+    float heading_rad;
+    float bound2_m;  ///< Bound of r2.
+    bool is_joint;   ///< Nothing speaks against one joint.
 } jcal_window_context_t;
 
 /// Adds a tick with the heading of its moment. Closes a part that is long enough; what it shows is worked off by `step`. Cost: 150

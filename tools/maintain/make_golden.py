@@ -50,7 +50,7 @@ FUNCTIONAL_S, FUNCTIONAL_STEP, FUNCTIONAL_POINTS, FUNCTIONAL_POSES = 18.0, 6, 4,
 BALL_S, BALL_EARLY, BALL_TRACKED = 18.0, 14, 20  # s; ticks of the early sums; ticks that the heading of the moment is followed over
 BALL_POINTS = (2, 3)  # with early and with all sums
 WINDOW_STEP, WINDOW_PARTS = 3, 6
-WINDOW_HEADING_BOUND = 0.15
+WINDOW_HEADING_BOUND, WINDOW_LEVER_BOUND = 0.15, 0.04
 CHAIN_STATES = 18
 CHAIN_OBSERVED = 3
 SAME_BIAS_M_S2 = 0.01  # by how much one accelerometer may differ from itself
@@ -720,10 +720,10 @@ def ball_track(ticks: list, weights: np.ndarray, point: ball.Point) -> np.ndarra
     v1 = np.array([a.velocity - a.lever @ point.r[:3] for a, _ in ticks])
     v2 = np.array([b.velocity - b.lever @ point.r[3:] for _, b in ticks])
     level1, level2 = v1[:, 0] + 1j * v1[:, 1], v2[:, 0] + 1j * v2[:, 1]
-    fade = 1.0 / (1.0 + ticks[0][0].dt_s / 10.0)
+    age = np.cumsum(np.log1p(motion / 4.0))  # of motion, in terms of the heading's memory
     recent = 0.0
     for k in range(BALL_TRACKED):
-        z = np.sum(motion[: k + 1] * fade ** np.arange(k, -1, -1.0) * np.conj(level2[: k + 1]) * level1[: k + 1])
+        z = np.sum(motion[: k + 1] * np.exp(age[: k + 1] - age[k]) * np.conj(level2[: k + 1]) * level1[: k + 1])
         heading = z / abs(z)
         left = abs(level1[k] - heading * level2[k]) ** 2 + (v1[k, 2] - v2[k, 2]) ** 2
         recent += motion[k] / (motion[k] + 1.5) * (min(left / (3.0 * point.size), 50.0) - recent)
@@ -758,7 +758,7 @@ def window_rows(ticks: list, r: np.ndarray, heading: complex) -> tuple[np.ndarra
             continue
         part = windows.parts[0]
         parts.append(np.concatenate([packed(part.seen1), packed(part.seen2), part.mean.ravel(), [part.carried2, part.motion_s, part.time_s]]))
-        windows.close(ball.Point(r), WINDOW_HEADING_BOUND, True)
+        windows.close(ball.Point(r), heading, WINDOW_HEADING_BOUND, WINDOW_LEVER_BOUND, True)
         found.append(np.concatenate([np.r_[a.windows, a.bound, a.heading_bound if a.windows else 0.0, a.direction if a.windows else np.zeros(3)]
                                      for a in windows.kept]))
     assert len(parts) == WINDOW_PARTS and [found[-1][0], found[-1][6]] == [2.0, 1.0]
@@ -814,6 +814,7 @@ def ball_header() -> str:
 #define GOLDEN_WINDOW_TICKS {len(w_ticks)}
 #define GOLDEN_WINDOW_TICK_S {w_ticks[0][0].dt_s:.2f}f
 #define GOLDEN_WINDOW_HEADING_BOUND {WINDOW_HEADING_BOUND:.2f}f
+#define GOLDEN_WINDOW_LEVER_BOUND {WINDOW_LEVER_BOUND:.2f}f
 #define GOLDEN_PARTS {len(parts)}
 
 """ + "\n".join(tables) + """/* clang-format on */

@@ -152,11 +152,13 @@ static void a_pose_needs_orientations_and_a_level_direction(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_frames_pose(one, jcal_quat(NAN, 0.0f, 0.0f, 0.0f), 0.0f, right, &frames));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_frames_pose(one, one, NAN, right, &frames));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_frames_pose(one, one, 0.0f, jcal_vec3(0.0f, 0.0f, 1.0f), &frames));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_frames_pose(one, one, 0.0f, jcal_vec3(0.19f, 0.0f, 1.0f), &frames));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_frames_pose(one, one, 0.0f, jcal_vec3(NAN, 0.0f, 1.0f), &frames));
     TEST_ASSERT_EQUAL_MEMORY(&before, &frames, sizeof frames);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_frames_pose(one, one, 0.0f, jcal_vec3(-1.0f, 0.0f, 0.0f), &frames));
     const jcal_vec3_t z = jcal_quat_rotate(frames.q_b1_s1, jcal_vec3(0.0f, 0.0f, 1.0f));
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, -1.0f, z.x);
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_frames_pose(one, one, 0.0f, jcal_vec3(0.0f, 0.21f, 1.0f), &frames));
 }
 
 int main(void)

@@ -156,10 +156,19 @@ static void centres_are_known_each_by_itself(void)
     TEST_ASSERT_TRUE(r.for_center2);
     good.verdict.status = (uint8_t)JCAL_READY; /* what breathes is still known */
     good.verdict.agreed = 3u;
+    good.verdict.for_center1 = true;
+    good.verdict.for_center2 = false; /* each breathes by itself */
     good.verdict.bound1_m = 0.06f * JCAL_HYSTERESIS * 0.99f;
+    good.verdict.bound2_m = 0.061f;
     TEST_ASSERT_TRUE(told(&good).for_center1);
+    TEST_ASSERT_FALSE(told(&good).for_center2);
     good.verdict.bound1_m = 0.06f * JCAL_HYSTERESIS * 1.01f;
     TEST_ASSERT_FALSE(told(&good).for_center1);
+    good.verdict.for_center2 = true;
+    good.verdict.bound2_m = 0.06f * JCAL_HYSTERESIS * 0.99f;
+    TEST_ASSERT_TRUE(told(&good).for_center2);
+    good.verdict.bound2_m = 0.06f * JCAL_HYSTERESIS * 1.01f;
+    TEST_ASSERT_FALSE(told(&good).for_center2);
     good.verdict.bound1_m = 0.02f;
     good.verdict.heading_rad = 0.5f; /* without a heading there is no joint that centres are of */
     r = told(&good);

@@ -45,7 +45,8 @@ static void push(uint32_t from, uint32_t until)
 
 void setUp(void)
 {
-    const jcal_ball_config_t config = jcal_ball_config_default();
+    jcal_ball_config_t config = jcal_ball_config_default();
+    config.max_lever_m = 0.08f; /* the proximal segment turns little */
     arm = arm_usual();
     arm.rest_s = 1.0; /* the level frames are right from the beginning */
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_ball_pair_init(&joint, &config, NULL));

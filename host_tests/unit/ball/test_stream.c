@@ -249,11 +249,15 @@ static void a_gap_with_another_heading_is_survived(void)
         run.arm.heading += 1.1;
         run_tick(&run);
         TEST_ASSERT_FALSE_MESSAGE(run_result(&run).heading.known, "what was known is of other frames");
+        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, run_result(&run).head.status);
+        TEST_ASSERT_EQUAL_INT(JCAL_WEAK_HEADING, run_result(&run).head.weak);
         for (int k = 0; k < 60; ++k) {
             run_tick(&run);
             TEST_ASSERT_TRUE(run_result(&run).head.status != JCAL_MOVED);
             /* The levers are known to 2 % of 0.2 m, which at 3 rad/s is 12 mm/s beside a centre that moves at 0.5 m/s. */
             TEST_ASSERT_TRUE((k < 20) || (run_heading_error(&run) < 0.05));
+            const jcal_ball_result_t now = run_result(&run);
+            TEST_ASSERT_TRUE(!now.heading.known || run_heading_error(&run) < (double)now.uncertainty_heading_rad);
             TEST_ASSERT_TRUE(run_lever_error(&run, 1) < 0.02);
         }
         TEST_ASSERT_EQUAL_INT(JCAL_READY, run_result(&run).head.status);
@@ -265,6 +269,36 @@ static void a_gap_with_another_heading_is_survived(void)
     TEST_ASSERT_DOUBLE_WITHIN(
         0.01, 0.0,
         remainder(atan2((double)past->heading.im, (double)past->heading.re) - run.arm.heading, 2.0 * MOTION_PI));
+}
+
+/* At rest nothing is learnt of the heading, and nothing forgotten: noise does not become a heading. */
+static void rest_forgets_nothing(void)
+{
+    const hinge_t arm = arm_usual();
+    run_begin(&run, &arm, NULL);
+    (void)run_until(&run, JCAL_READY, 12.0);
+    run_for(&run, 10.0);
+    const double t = run_time(&run);
+    for (int k = 0; k < 20 * 600; ++k) {
+        jcal_tick_t tick1 = hinge_tick(&run.arm, t, 1, 0u);
+        jcal_tick_t tick2 = hinge_tick(&run.arm, t, 2, 0u);
+        jcal_tick_t *const both[2] = {&tick1, &tick2};
+        for (int i = 0; i < 2; ++i) { /* 2 mrad/s and 2 mm/s, as noise is */
+            const int n = 9 * (2 * k + i);
+            both[i]->t_us = run.begin_us + (uint64_t)run.next * TICK_US;
+            both[i]->epoch = run.epoch;
+            memset(both[i]->rate, 0, sizeof both[i]->rate);
+            memset(both[i]->lever, 0, sizeof both[i]->lever);
+            both[i]->gyr = (jcal_vec3_t){2e-3f * (float)any(n), 2e-3f * (float)any(n + 1), 2e-3f * (float)any(n + 2)};
+            both[i]->velocity =
+                (jcal_vec3_t){2e-3f * (float)any(n + 3), 2e-3f * (float)any(n + 4), 2e-3f * (float)any(n + 5)};
+        }
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_ball_add(&run.joint, &tick1, &tick2));
+        run_work(&run);
+        ++run.next;
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, run_result(&run).head.status);
+        TEST_ASSERT_TRUE(run_heading_error(&run) < 0.02);
+    }
 }
 
 /* Either sensor alone may begin anew. */
@@ -458,6 +492,22 @@ static void what_is_no_joint_is_never_ready(void)
         TEST_ASSERT_TRUE(run_result(&run).head.status != JCAL_READY);
     }
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_BEND, run_result(&run).head.reason);
+}
+
+/* Sensors that were carried about before they were put on: what came before does not stand in the way. */
+static void a_joint_is_found_after_what_was_none(void)
+{
+    for (int number = 0; number < 4; ++number) {
+        const hinge_t arm = some_arm(number);
+        hinge_t stranger = some_arm(number + 20);
+        stranger.rest_s = -7.0;
+        run_begin(&run, &arm, NULL);
+        for (int k = 0; k < 20 * 30; ++k) {
+            tick_beside(&stranger);
+        }
+        TEST_ASSERT_TRUE(run_until(&run, JCAL_READY, 40.0) < 30.0);
+        TEST_ASSERT_TRUE(run_heading_error(&run) < (double)run_result(&run).uncertainty_heading_rad);
+    }
 }
 
 /* Gravity that one accelerometer shows wrongly. */
@@ -675,6 +725,7 @@ int main(void)
     RUN_TEST(times_do_not_matter_but_for_their_order);
     RUN_TEST(ticks_that_are_refused_leave_no_trace);
     RUN_TEST(a_gap_with_another_heading_is_survived);
+    RUN_TEST(rest_forgets_nothing);
     RUN_TEST(a_gap_of_one_sensor_is_one_of_both);
     RUN_TEST(gaps_before_the_first_estimate_leave_nothing_behind);
     RUN_TEST(a_slip_is_noticed_and_learnt);
@@ -683,6 +734,7 @@ int main(void)
     RUN_TEST(a_start_that_leaves_a_little_less_does_not_end_ready);
     RUN_TEST(the_relative_orientation_is_that_of_the_joint);
     RUN_TEST(what_is_no_joint_is_never_ready);
+    RUN_TEST(a_joint_is_found_after_what_was_none);
     RUN_TEST(a_wrong_gravity_is_told);
     RUN_TEST(memory_is_bounded);
     RUN_TEST(halved_sums_say_the_same);

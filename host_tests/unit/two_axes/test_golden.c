@@ -84,7 +84,8 @@ static void parts_and_what_they_show(void)
 {
     const float *const p = golden_window_point[0];
     const jcal_plane_t heading = {p[6], p[7]};
-    const jcal_window_context_t context = {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}, GOLDEN_WINDOW_HEADING_BOUND, true};
+    const jcal_window_context_t context = {{p[0], p[1], p[2]},          {p[3], p[4], p[5]},        heading,
+                                           GOLDEN_WINDOW_HEADING_BOUND, GOLDEN_WINDOW_LEVER_BOUND, true};
     int parts = 0;
     for (int k = 0; k < GOLDEN_WINDOW_TICKS; ++k) {
         const jcal_tick_t tick1 = tick_of(golden_window_ticks[k]);

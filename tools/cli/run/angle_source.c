@@ -139,6 +139,10 @@ static bool update_ball(angle_source_t *source, const recording_row_t *row, jcal
         return false;
     }
     source->head = result.head;
+    if (source->has_pose && result.head.status == JCAL_MOVED) { /* it was one of other sensor frames */
+        source->has_pose = false;
+        source->config.pose_us = INT64_MAX;
+    }
     source->joint.known = is_accepted(source, result.has_estimate) && result.heading.known;
     source->joint.heading_rad = result.heading.heading_rad;
     source->joint.bound_rad = result.uncertainty_heading_rad;

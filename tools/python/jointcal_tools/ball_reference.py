@@ -25,11 +25,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from .functional_reference import (BLOCK_MOTION_S, BLOCK_S, BLOCKS, DEG, FLOORS, HEADINGS, JUDGE_EVERY_S, LASTING, MEMORY_S,  # noqa: F401
-                                   MOTION_FIRST_S, MOTION_MAX_BEFORE_S, MOTION_MAX_S, RATE_SMOOTHING_S, RIDGE, ROWS, about_z,
+                                   MOTION_FIRST_S, MOTION_MAX_BEFORE_S, MOTION_MAX_S, RATE_SMOOTHING_S, ROWS, about_z,
                                    complex_rows, lever_rows, nearest_rotation, weights_of)
 from .functional_sensor import Tick
 
 SIZE_FLOOR = 5e-5  # (m/s)^2
+RIDGE = 3e-4  # share of the mean diagonal
 MEMORY = 1.0  # s of motion that take one independent reading
 DRIFT = 2.0 * DEG  # of a heading, from block to block
 PULL = 1.0 / DRIFT**2
@@ -43,6 +44,7 @@ HEADING_SHARE = 2.0
 OPEN_SHARE, OPEN_VARIANCE = 1e-5, 0.5  # of the largest diagonal element, to every direction of the levers; what it alone leaves is no knowledge
 
 AGREED_MIN = 3
+REFUSED_MAX_S = 10.0  # of motion that is no joint, before the first one
 GRAVITY_OFF_MAX, MOTION_MIN_S, LACK_MAX, STIFFNESS_MIN, SPEED_NOISE2 = 0.6, 3.0, 0.05, 0.07, 2e-4
 
 # Windows.
@@ -50,8 +52,10 @@ PART_S = 2.5
 RATE_KNEE2 = 4.0  # (rad/s)^2 of the relative rate, beyond which it counts less
 WINDOW_MOTION_S, SIDEWAYS_MAX, TURNED_MAX, BEND_MIN = 1.0, 0.12, 15.0 * DEG, 0.2
 SKIN_COSINE, ACROSS_COSINE, ALONG_COSINE = 0.85, 0.5, 0.9
+ARM_MIN_M, LEVER_BOUND_SHARE = 0.1, 0.5  # the distal lever decides only where it is so long, and along itself known
 AXIS_FLOOR, AXIS_SHARE, AXIS_HEADING_SHARE = 2.0 * DEG, 0.5, 0.5
-AGAINST_MAX = 2
+LONE = (6.0 * DEG, 12.0 * DEG)  # what one window may show that is no axis
+AGAINST_MAX, REMEMBERED = 2, 12
 
 
 @dataclass
@@ -230,6 +234,14 @@ def bounds(sums: Sums, past: Past, point: Point) -> tuple[np.ndarray, float]:
     return np.minimum(found, UNKNOWN_M), heading
 
 
+def block_information(sums: Sums, past: Past, point: Point) -> float:
+    """What the closed block alone knows of its heading once the levers have taken their share, 1/rad^2."""
+    full = information(sums, past, point)
+    h = full[:6, :6] + open_information(full[:6, :6]) * np.eye(6)
+    left = full[6:, 6:] - full[6:, :6] @ np.linalg.solve(h, full[:6, 6:])
+    return max(left[1, 1] - PULL - past.pull, 0.0) if np.linalg.eigvalsh(left)[0] > 0.0 else 0.0
+
+
 def stiffness(sums: Sums) -> float:
     """What one fixed rotation leaves of both rates, beside the smaller of them."""
     best = np.trace(nearest_rotation(sums.along).T @ sums.along)
@@ -246,6 +258,7 @@ class Part:
     seen1: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))
     seen2: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))
     mean: np.ndarray = field(default_factory=lambda: np.zeros((3, 3)))  # of R1' Rz R2, times seconds
+    heading: complex = 1.0 + 0.0j  # at its first tick
     carried2: float = 0.0  # squared rate of the proximal segment, weighted as the relative one
     motion_s: float = 0.0
     time_s: float = 0.0
@@ -276,8 +289,10 @@ def line_angle(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.arctan2(np.linalg.norm(np.cross(a, b)), abs(a @ b)))
 
 
-def axis_bound(seen: np.ndarray, heading: float) -> float:
-    return AXIS_FLOOR + AXIS_SHARE * np.sqrt(max(sideways(seen), 0.0)) + AXIS_HEADING_SHARE * heading
+def axis_bound(seen: np.ndarray, heading: float, kind: int, windows: int) -> float:
+    """Of so many windows, which overlap by half."""
+    shown = AXIS_FLOOR + AXIS_SHARE * np.sqrt(max(sideways(seen), 0.0)) + AXIS_HEADING_SHARE * heading
+    return float(np.hypot(shown, 2.0 * LONE[kind] / (windows + 1)))
 
 
 class Windows:
@@ -294,6 +309,8 @@ class Windows:
         in1, in2 = tick1.turn.T @ relative, tick2.turn.T @ rz.T @ relative
         rate2 = float(relative @ relative)
         part, share = self.parts[0], tick1.dt_s / (1.0 + rate2 / RATE_KNEE2)
+        if part.time_s == 0.0:
+            part.heading = heading
         part.seen1 += share * np.outer(in1, in1)
         part.seen2 += share * np.outer(in2, in2)
         part.mean += tick1.dt_s * tick1.turn.T @ rz @ tick2.turn
@@ -302,36 +319,39 @@ class Windows:
         part.time_s += tick1.dt_s
         return part.time_s >= PART_S
 
-    def close(self, point: Point, heading_bound: float, is_joint: bool) -> None:
-        """The window is judged, if there is a joint; its older half is given up."""
+    def close(self, point: Point, heading: complex, heading_bound: float, bound2: float, is_joint: bool) -> None:
+        """The window is judged, if there is a joint, with the heading of this moment and bounds of it and of the distal lever; its
+        older half is given up."""
         new, old = self.parts
         if is_joint and old.time_s > 0.0:
-            self.take(old, new, point, heading_bound)
+            moved = max(abs(float(np.angle(heading * np.conj(part.heading)))) for part in (old, new))
+            self.take(old, new, point, float(np.hypot(heading_bound, moved)), bound2)
         self.parts = [Part(), new]
 
-    def take(self, old: Part, new: Part, point: Point, heading_bound: float) -> None:
-        kind = kind_of(old, new, point)
+    def take(self, old: Part, new: Part, point: Point, heading_bound: float, bound2: float) -> None:
+        kind = kind_of(old, new, point, bound2)
         if kind is None:
             return
         seen = (old.seen1 + new.seen1, old.seen2 + new.seen2)[kind]
         if kind == 1:  # in the frame of the sensor that turns, a heading is wrong about what both share only
             heading_bound *= min(1.0, float(np.sqrt((old.carried2 + new.carried2) / max(np.trace(seen), 1e-12))))
-        bound, axis = axis_bound(seen, heading_bound), self.kept[kind]
+        bound, axis = axis_bound(seen, heading_bound, kind, 1), self.kept[kind]
         if axis.windows == 0:
             self.kept[kind] = Axis(seen, bound, heading_bound, 1)
             return
-        if line_angle(axis.direction, np.linalg.eigh(seen)[1][:, -1]) <= axis.bound + bound:
-            axis.seen = axis.seen + seen
-            axis.heading_bound = min(axis.heading_bound, heading_bound)
-            axis.bound = axis_bound(axis.seen, axis.heading_bound)
-            axis.windows, axis.against = axis.windows + 1, 0
+        if line_angle(axis.direction, np.linalg.eigh(seen)[1][:, -1]) <= np.hypot(axis.bound, bound):
+            n = min(axis.windows, REMEMBERED - 1)
+            axis.seen = axis.seen * (n / axis.windows) + seen
+            axis.heading_bound += (heading_bound - axis.heading_bound) / (n + 1)
+            axis.windows, axis.against = n + 1, 0
+            axis.bound = axis_bound(axis.seen, axis.heading_bound, kind, axis.windows)
             return
         axis.against += 1
-        if bound < axis.bound or axis.against >= AGAINST_MAX:
+        if (axis.windows == 1 and bound < axis.bound) or axis.against >= AGAINST_MAX:
             self.kept[kind] = Axis(seen, bound, heading_bound, 1)
 
 
-def kind_of(old: Part, new: Part, point: Point) -> int | None:
+def kind_of(old: Part, new: Part, point: Point, bound2: float) -> int | None:
     """0: flexion, 1: pronation, None: no axis is to be seen in this window."""
     time_s = old.time_s + new.time_s
     if old.motion_s + new.motion_s < WINDOW_MOTION_S:
@@ -345,11 +365,13 @@ def kind_of(old: Part, new: Part, point: Point) -> int | None:
     mean = (old.mean + new.mean) / time_s
     if 0.5 * (3.0 - float(np.sum(mean**2))) < BEND_MIN**2:
         return None
-    r1, r2 = point.r[:3] / max(np.linalg.norm(point.r[:3]), 1e-9), point.r[3:] / max(np.linalg.norm(point.r[3:]), 1e-9)
-    if abs(main[0] @ r1) > SKIN_COSINE:
+    r1, r2 = point.r[:3], point.r[3:]
+    if abs(main[0] @ r1) > SKIN_COSINE * np.linalg.norm(r1):
         return None
-    beside = abs(float(main[1] @ r2))
-    return 0 if beside <= ACROSS_COSINE else (1 if beside >= ALONG_COSINE else None)
+    length, along = float(np.linalg.norm(r2)), abs(float(main[1] @ r2))
+    if along <= ACROSS_COSINE * length and np.linalg.norm(np.cross(main[1], r2)) >= ARM_MIN_M:
+        return 0
+    return 1 if along >= ALONG_COSINE * length and along >= ARM_MIN_M and bound2 <= LEVER_BOUND_SHARE * length else None
 
 
 # Judgement.
@@ -373,7 +395,7 @@ class Ball:
 
     def __init__(self) -> None:
         self.sums, self.past, self.point, self.verdict, self.windows = Sums(), Past(), Point(), Verdict(), Windows()
-        self.rate2 = self.motion_s = self.since_s = self.gravity_off = 0.0
+        self.rate2 = self.motion_s = self.since_s = self.refused_s = self.gravity_off = 0.0
         self.has_estimate = self.merged = self.was_joint = False
         self.turn = 0
         self.epochs: tuple[int, int] | None = None
@@ -391,9 +413,10 @@ class Ball:
         self.rate2 += tick1.dt_s / (tick1.dt_s + RATE_SMOOTHING_S) * (rate2 - self.rate2)
         weights = weights_of(tick1.dt_s, self.rate2)
         self.motion_s += weights.motion_s
+        self.refused_s += weights.motion_s
         self.sums.add(tick1, tick2, weights.motion_s, weights.spin)
         if self.has_estimate and self.windows.add(tick1, tick2, self.point.heading[0]):
-            self.windows.close(self.point, self.verdict.heading, self.verdict.is_joint)
+            self.windows.close(self.point, self.point.heading[0], self.verdict.heading, self.verdict.levers[1], self.verdict.is_joint)
         if self.sums.is_full:
             self.close()
             if self.sums.motion_s > (MOTION_MAX_S if self.was_joint else MOTION_MAX_BEFORE_S):
@@ -409,22 +432,26 @@ class Ball:
         """The closed block is merged with its heading, the open one closed; another begins with its heading."""
         old, heading = self.sums.blocks[1], self.point.heading[1]
         if old.motion_s > 0.0:
-            pull = pulls(self.sums, self.point)[1]
-            self.past = Past(heading, self.past.pull + max((heading * pull).real, 0.0))
+            self.past = Past(heading, self.past.pull + block_information(self.sums, self.past, self.point))
             self.sums.old = self.sums.old + (heading * old.lever).real
             self.merged = True
         self.sums.blocks = [Block(), self.sums.blocks[0]]
         self.point.heading = [self.point.heading[0], self.point.heading[0]]
 
     def cut(self) -> None:
-        """The features began anew. Before there is an estimate no block has a heading that it could be merged with."""
+        """The features began anew. Before there is a joint no block has a heading that it could be merged with."""
         self.windows.parts = [Part(), Part()]
-        if not self.has_estimate:
-            self.sums, self.past, self.point, self.motion_s = Sums(), Past(), Point(), 0.0
+        if not self.verdict.is_joint:
+            self.begin_anew()
         else:
             self.close()
             self.close()  # both blocks: nothing ties their headings to what comes
             self.past.known = 0.0
+
+    def begin_anew(self) -> None:
+        epochs = self.epochs
+        self.__init__()
+        self.epochs = epochs
 
     def round(self, point: Point) -> None:
         put_levers(self.sums, point)
@@ -457,3 +484,7 @@ class Ball:
         v.reason = next((name for name, passed in gates if not passed), "")
         v.agreed = min(v.agreed + 1, AGREED_MIN) if v.reason == "" else 0
         self.was_joint = self.was_joint or v.is_joint
+        if v.reason != "not-one-joint":
+            self.refused_s = 0.0
+        if not self.was_joint and self.refused_s > REFUSED_MAX_S:
+            self.begin_anew()

@@ -75,15 +75,17 @@ typedef struct {
     jcal_ball_verdict_t verdict;
     jcal_ball_track_t track;
     jcal_tick_pair_t ticks;
-    float motion_s;  ///< Motion since the beginning, s.
-    float since_s;   ///< Time since the last judgement began, s.
-    float credit;    ///< Slices that are paid for.
-    uint8_t slice;   ///< Next slice of the judgement.
-    uint8_t turn;    ///< Number of the heading that is tried.
-    uint8_t tried;   ///< How many were, at most 255.
+    float motion_s;   ///< Motion since the beginning, s.
+    float refused_s;  ///< Motion since a judgement last found no reason to doubt that it is one joint, s.
+    float since_s;    ///< Time since the last judgement began, s.
+    float credit;     ///< Slices that are paid for.
+    uint8_t slice;    ///< Next slice of the judgement.
+    uint8_t turn;     ///< Number of the heading that is tried.
+    uint8_t tried;    ///< How many were, at most 255.
     bool has_estimate;
     bool merged;     ///< A block was merged: headings cannot be begun anew any more.
     bool was_ready;  ///< Since the sensors sit as they do.
+    bool refused;    ///< What came before was no joint, and nothing has said otherwise since.
 } jcal_ball_t;
 
 #ifdef __cplusplus

@@ -20,9 +20,10 @@ typedef struct {
     float seen
         [2]
         [6];  ///< Sum of the relative rate's outer products, in the frames of sensor 1 and of sensor 2 (3 x 3, packed).
-    float mean[9];   ///< Sum of R1' Rz R2, times seconds.
-    float carried2;  ///< Squared rate of the proximal segment, weighted as the relative one.
-    float motion_s;  ///< Seconds in which the joint moves.
+    float mean[9];         ///< Sum of R1' Rz R2, times seconds.
+    jcal_plane_t heading;  ///< At its first tick.
+    float carried2;        ///< Squared rate of the proximal segment, weighted as the relative one.
+    float motion_s;        ///< Seconds in which the joint moves.
     float time_s;
     jcal_vec3_t main[2];  ///< Main directions of `seen`, once it is closed.
 } jcal_axis_part_t;
@@ -32,9 +33,10 @@ typedef struct {
     float seen[6];      ///< Of all windows that agree (3 x 3, packed).
     jcal_vec3_t axis;   ///< Its main direction.
     float bound_rad;    ///< 95 % bound of it.
-    float heading_rad;  ///< What the heading's error may add, least of all windows.
-    uint8_t windows;    ///< How many agree; at most 255.
+    float heading_rad;  ///< What the heading's error may add, mean of all windows.
+    uint8_t windows;    ///< How many agree; those before the last twelve do not count.
     uint8_t against;    ///< How many in a row did not.
+    bool in_doubt;      ///< The joint was lost since: unknown until another window agrees.
     int8_t kept_sign;
 } jcal_axis_found_t;
 
