@@ -19,6 +19,8 @@
 #define MOTION_MIN_S 3.0f
 /// What may be left of the centre's motion, and what noise leaves, (m/s)^2.
 #define LACK_MAX 0.05f
+/// Motion from which on so much may be left, s; of less motion it is a share of it: what no joint has in common may look small for a moment.
+#define LACK_MOTION_S 8.0f
 #define SPEED_NOISE2 2e-4f
 #define STIFFNESS_MIN 0.07f
 
@@ -46,7 +48,8 @@ static jcal_reason_t find_objection(const jcal_ball_t *self, float slack)
     if ((slack * self->sums.motion_s) < MOTION_MIN_S) {
         return JCAL_REASON_NO_MOTION;
     }
-    if (!((left - SPEED_NOISE2) <= (slack * LACK_MAX * self->point.speed2))) {
+    const float sure = jcal_min(self->sums.motion_s / LACK_MOTION_S, 1.0f);
+    if (!((left - SPEED_NOISE2) <= (slack * sure * LACK_MAX * self->point.speed2))) {
         return JCAL_REASON_NOT_ONE_JOINT;
     }
     return ((slack * self->verdict.stiffness) >= STIFFNESS_MIN) ? JCAL_REASON_NONE : JCAL_REASON_NO_BEND;

@@ -46,6 +46,7 @@ OPEN_SHARE, OPEN_VARIANCE = 1e-5, 0.5  # of the largest diagonal element, to eve
 AGREED_MIN = 3
 REFUSED_MAX_S = 10.0  # of motion that is no joint, before the first one
 GRAVITY_OFF_MAX, MOTION_MIN_S, LACK_MAX, STIFFNESS_MIN, SPEED_NOISE2 = 0.6, 3.0, 0.05, 0.07, 2e-4
+LACK_MOTION_S = 8.0  # of motion from which on so much may be left
 
 # Windows.
 PART_S = 2.5
@@ -480,7 +481,7 @@ class Ball:
         v.stiffness = stiffness(self.sums)
         left = self.point.lack / self.sums.motion_s
         gates = [("gravity-off", self.gravity_off <= GRAVITY_OFF_MAX), ("no-motion", self.sums.motion_s >= MOTION_MIN_S),
-                 ("not-one-joint", left - SPEED_NOISE2 <= LACK_MAX * self.point.speed2), ("no-bend", v.stiffness >= STIFFNESS_MIN)]
+                 ("not-one-joint", left - SPEED_NOISE2 <= LACK_MAX * min(self.sums.motion_s / LACK_MOTION_S, 1.0) * self.point.speed2), ("no-bend", v.stiffness >= STIFFNESS_MIN)]
         v.reason = next((name for name, passed in gates if not passed), "")
         v.agreed = min(v.agreed + 1, AGREED_MIN) if v.reason == "" else 0
         self.was_joint = self.was_joint or v.is_joint
