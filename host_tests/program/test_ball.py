@@ -50,10 +50,13 @@ class Ball(BallTest):
         lines, _ = self.run_lines("ball", str(DEMO), "--every", "1")
         told = [line for line in lines if line["status"] == "ready"]
         self.assertGreater(len(told), 20)
+        bounded = [0, 0]
         for line in told:
             for k in (0, 1):
-                off = math.dist(line[f"joint_to_sensor{k + 1}_m"], TRUTH[f"joint_to_sensor{k + 1}_m"])
-                self.assertLess(off, line["uncertainty_m"][k])
+                off, bound = math.dist(line[f"joint_to_sensor{k + 1}_m"], TRUTH[f"joint_to_sensor{k + 1}_m"]), line["uncertainty_m"][k]
+                self.assertTrue(bound is None or off < bound, (line["t_s"], k, off, bound))
+                bounded[k] += bound is not None
+        self.assertGreater(min(bounded), 20)
 
     def test_limits_count(self):
         lines, status = self.run_lines("ball", str(DEMO), "--max-lever", "0.02")

@@ -274,7 +274,7 @@ class Derivatives(unittest.TestCase):
         self.assertLess(np.linalg.norm(point.r[3:] - R2), levers[1])
         self.assertLess(levers[1], br.UNKNOWN_M)
 
-    def test_errors_of_the_regressors_are_worth_half_of_what_they_shorten_levers_by(self):
+    def test_errors_of_the_regressors_are_worth_what_they_shorten_levers_by(self):
         rng = np.random.default_rng(7)
         sums, point = br.Sums(), br.Point()
         for a, b in random_ticks(rng, 4000):
@@ -288,7 +288,7 @@ class Derivatives(unittest.TestCase):
             part = slice(3 * k, 3 * k + 3)
             r, spread = point.r[part], 0.5 * np.sqrt(np.linalg.eigvalsh(covariance[part, part])[-1])
             added = found[k] - 0.003 - spread - share * np.linalg.norm(r)
-            self.assertAlmostEqual(added / np.linalg.norm(truth - r), 0.5, delta=0.1)
+            self.assertAlmostEqual(added / np.linalg.norm(truth - r), 1.0, delta=0.2)
 
 
 class BallTest(unittest.TestCase):

@@ -209,7 +209,7 @@ static void bound_levers(jcal_ball_t *self)
     jcal_levers_cross(&self->sums.levers, point->heading, x);
     jcal_levers_normal(&self->sums.levers, x, h, g);
     const float length2 = jcal_vec3_dot(point->r1, point->r1) + jcal_vec3_dot(point->r2, point->r2);
-    const float noise = 0.5f * point->lack / jcal_max(length2, LENGTH2_MIN);
+    const float noise = point->lack / jcal_max(length2, LENGTH2_MIN);
     if (lengthen(h, g, noise, noise, longer)) {
         v->bound1_m = lever_bound(&longer[0], point->r1, v->spread1_m, JCAL_BALL_SKIN1);
         v->bound2_m = lever_bound(&longer[3], point->r2, v->spread2_m, JCAL_BALL_SKIN2);

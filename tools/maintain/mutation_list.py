@@ -758,7 +758,7 @@ MUTATIONS = [
     (B_BOUNDS, "sqrtf(v->left[2] / known)", "sqrtf(v->left[0] / known)", "variance of the open block's heading"),
     (B_BOUNDS, "(by0 * v->coupling[first + k])", "0.0f * (by0 * v->coupling[first + k])", "what headings take from a lever"),
     (B_BOUNDS, "- (v->left[1] * a)) / known;", "+ (v->left[1] * a)) / known;", "inverse of a 2 x 2"),
-    (B_BOUNDS, "0.5f * point->lack / jcal_max(length2", "1.0f * point->lack / jcal_max(length2", "share of errors of the regressors"),
+    (B_BOUNDS, "noise = point->lack / jcal_max(length2", "noise = 0.5f * point->lack / jcal_max(length2", "share of errors of the regressors"),
     (B_BOUNDS, "self->verdict.spread2_m = spread(&self->verdict, 3u);", "self->verdict.spread2_m = spread(&self->verdict, 0u);", "spread of lever 2"),
     (B_BOUNDS, "if (!(v->left[2] > 0.0f) || !(known > 0.0f)) {", "if (false) {", "headings of which nothing is known"),
     (B_CONFIG, "15.0f * JCAL_RAD_PER_DEG, 0.06f, 100.0f", "10.0f * JCAL_RAD_PER_DEG, 0.06f, 100.0f", "default limit of the heading"),

@@ -16,6 +16,8 @@
 
 /* Misfit of the rigid engine from which on the segments are a person's: recordings of rigs leave at most 0.05, of people 0.2 and more. */
 #define PERSON_MISFIT 0.1f
+/* The other model speaks for segments that are no person's with bounds below this, m: else which direction is open is worth more. */
+#define PEOPLE_USEFUL_M 0.1f
 
 /* ---- Options ---- */
 
@@ -256,7 +258,7 @@ static const jcal_head_t *get(void *self)
         const bool settled = rigid->head.status == JCAL_READY || rigid->head.status == JCAL_MOVED;
         const bool known = ball.uncertainty_heading_rad < BOUND_UNKNOWN_RAD;
         const float theirs = fmaxf(ball.uncertainty1_m, ball.uncertainty2_m);
-        const bool sharper = theirs < fmaxf(rigid->uncertainty1_m, rigid->uncertainty2_m);
+        const bool sharper = theirs < fminf(fmaxf(rigid->uncertainty1_m, rigid->uncertainty2_m), PEOPLE_USEFUL_M);
         if (known && (rigid->misfit > PERSON_MISFIT || (!settled && sharper))) {
             say_people(run, &ball);
         }

@@ -225,7 +225,7 @@ def bounds(sums: Sums, past: Past, point: Point) -> tuple[np.ndarray, float]:
     p = np.linalg.inv(full)
     heading = min(HEADING_SHARE * float(np.sqrt(p[6, 6])), UNKNOWN)
     h, g = sums.normal(sums.cross(point.heading))
-    noise = 0.5 * point.lack / max(float(point.r @ point.r), 1e-6)
+    noise = point.lack / max(float(point.r @ point.r), 1e-6)
     found = []
     for part, longer, skin in zip((slice(0, 3), slice(3, 6)), longer_levers(h, g, noise), SKIN, strict=True):
         widest = float(np.linalg.eigvalsh(p[part, part])[-1])
