@@ -7,6 +7,7 @@
 #include "jointcal/head.h"
 #include "jointcal/vec3.h"
 #include "levers/levers.h"
+#include "math/angle.h"
 #include "math/chol_small.h"
 #include "math/eig3.h"
 #include "math/plane.h"
@@ -17,6 +18,10 @@
 #include <math.h>
 
 #define HEADING_SHARE 2.0f
+/// How fast a heading may drift away while too little moves to tell, rad/s, once what is known of it is older than so much, s: gyroscopes whose
+/// biases about the vertical nobody has found yet.
+#define DRIFT_RAD_S (0.25f * JCAL_RAD_PER_DEG)
+#define FRESH_S 10.0f
 #define LEVER_FLOOR_M 0.003f
 #define LEVER_SHARE 0.5f
 /// Share of the largest diagonal element that every direction is given: three times what rounding takes (chol_small.h).
@@ -137,7 +142,8 @@ static void bound_heading(jcal_ball_t *self)
         v->left[0] = 0.0f;
         return;
     }
-    v->heading_rad = jcal_min(HEADING_SHARE * sqrtf(v->left[2] / known), JCAL_BOUND_UNKNOWN_RAD);
+    const float drift = DRIFT_RAD_S * jcal_max(self->track.age_s - FRESH_S, 0.0f);
+    v->heading_rad = jcal_min((HEADING_SHARE * sqrtf(v->left[2] / known)) + drift, JCAL_BOUND_UNKNOWN_RAD);
 }
 
 /// Half of the standard deviation in the direction that is known least, of the lever whose unknowns begin with `first`; without bound if

@@ -22,6 +22,7 @@ void jcal_ball_track_clear(jcal_ball_t *self)
 {
     self->track.sum = (jcal_plane_t){0.0f, 0.0f};
     self->track.heading = self->point.heading[0];
+    self->track.age_s = 0.0f;
     self->track.recent = 0.0f;
     self->track.known = false;
 }
@@ -47,6 +48,7 @@ void jcal_ball_track_add(jcal_ball_t *self, const jcal_tick_t *tick1, const jcal
     const jcal_plane_t level2 = {v2.x, v2.y};
     const float fade = 1.0f / (1.0f + (motion_s / MEMORY_S));
     const jcal_plane_t faded = {fade * track->sum.re, fade * track->sum.im};
+    track->age_s = fade * (track->age_s + tick1->dt_s);
     track->sum = jcal_plane_add(faded, motion_s, jcal_plane_against(level2, level1));
     if (!(jcal_plane_norm2(track->sum) > FLT_MIN)) {
         return;

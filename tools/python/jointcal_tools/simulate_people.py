@@ -98,6 +98,8 @@ ACTIVITIES = {
     "random": Activity(1.0, 4.0, free_deg=(10.0, 18.0, 22.0), turning_deg=35.0, drift_m_s2=1.5),
     "bend": Activity(0.5, 2.0, free_deg=(6.0, 10.0, 40.0), free_hz=(0.2, 0.8), turning_deg=15.0, drift_m_s2=1.0),
     "turn": Activity(0.5, 2.0, free_deg=(5.0, 8.0, 3.0), free_hz=(0.2, 0.8), turning_deg=15.0, drift_m_s2=1.0, turn_deg=40.0),
+    "bend_and_turn": Activity(0.5, 2.0, free_deg=(6.0, 10.0, 20.0), free_hz=(0.05, 0.4), turning_deg=15.0, drift_m_s2=1.0, turn_deg=25.0),
+    "carried_turn": Activity(0.5, 0.3, free_deg=(0.1, 0.1, 0.1), free_hz=(0.2, 0.8), turning_deg=0.3, drift_m_s2=1.5, turn_deg=40.0),
     "stand": Activity(0.1, 0.3, free_deg=(0.3, 0.4, 0.5), free_hz=(0.1, 1.0), turning_deg=0.5, drift_m_s2=0.05),
 }
 JOINT_OUT_OF_PLANE = {"knee": 1.0, "ankle": 0.7, "elbow": 0.5}

@@ -61,6 +61,7 @@ typedef struct {
 typedef struct {
     jcal_plane_t sum;      ///< What the last seconds say, fading.
     jcal_plane_t heading;  ///< L2 to L1.
+    float age_s;           ///< Mean age of what it was learnt from, s.
     float recent;          ///< Squared residual of the last 1.5 s of motion beside its usual size.
     bool known;
 } jcal_ball_track_t;

@@ -21,7 +21,7 @@ from . import optical
 from . import people_faults as faults
 from .faults import choose
 from .judge import available, cut, recording
-from .people_ball import NONE, Truth, at_ticks, axis_truth, lab_quaternions, lever_truth, true_heading_deg
+from .people_ball import HEADING_S, NONE, Truth, at_ticks, axis_truth, lab_quaternions, lever_truth, true_heading_deg
 from .people_faults import HINGE_RIGS, KNOWN_AXES, PeopleCase, known_axes
 from .people_flexion import wrapped_deg
 from .people_joints import JOINTS, people_joint, sensor_signals
@@ -32,10 +32,12 @@ RULES: dict[str, tuple[str, ...]] = {  # of ITEMS
     "no joint": (BEYOND_BOUND, *(NEVER,) * 4),  # sensors of one body or one person: there is a heading
     "hinge": (*(BEYOND_BOUND,) * 4, NEVER),  # nothing turns about axis 2
     "ball": (*(BEYOND_BOUND,) * 3, NEVER, NEVER),
+    "turns": (*(BEYOND_BOUND,) * 3, NEVER, BEYOND_BOUND),  # nothing bends
     "two axes": (BEYOND_BOUND,) * 5,
 }
 STIFF = ("same_segment", "stiff_copy", "stiff_vibration", "stiff_straps")
 NO_JOINT = ("other_shank", "other_shank_simulated", "both_thighs", "splint", *STIFF)
+TURNS = ("turn", "bend_and_turn", "carried_turn")  # activities in which a forearm turns
 STIFF_SLACK_DEG = 5.0  # skin and straps rock by as much
 HINGES = ("seated_swing", *(name for name in faults.FAULTS if name.startswith("late_")))
 
@@ -111,6 +113,38 @@ def rig_hinge(rng: np.random.Generator) -> PeopleCase:
     return faults.passage(rng, choose(rng, available(*HINGE_RIGS)))
 
 
+# Elbows that do something else than one motion after the other.
+
+def elbow_that(rng: np.random.Generator, *parts: tuple[str, float]) -> PeopleCase:
+    spec = faults.random_spec(rng, joint="elbow")
+    return faults.person(replace(spec, activities=parts, rate_hz=100.0))
+
+
+def bends_and_turns(rng: np.random.Generator) -> PeopleCase:
+    """Both at once and slowly, so that half a cycle of both is one line."""
+    return elbow_that(rng, ("bend_and_turn", 90.0))
+
+
+def turns_carried(rng: np.random.Generator) -> PeopleCase:
+    """The forearm turns on an arm that is carried and does nothing: its lever along itself is open."""
+    return elbow_that(rng, ("carried_turn", rng.uniform(20.0, 60.0)))
+
+
+def after_rest(rng: np.random.Generator) -> PeopleCase:
+    return elbow_that(rng, ("bend", 20.0), ("turn", 20.0), ("stand", 300.0), ("bend", 10.0))
+
+
+def with_gaps(rng: np.random.Generator) -> PeopleCase:
+    """Samples are missing for 0.2 to 3 s, three times."""
+    case = elbow_that(rng, ("bend", 25.0), ("turn", 25.0))
+    keep = np.ones(len(case.rec), bool)
+    for begin, length_s in zip(rng.uniform(0.5, 45.0, 3), rng.uniform(0.2, 3.0, 3), strict=True):
+        keep &= (case.rec.t_s < begin) | (case.rec.t_s >= begin + length_s)
+    rows = {name: getattr(case.person, name)[keep] for name in ("t_s", "gyr1", "acc1", "gyr2", "acc2", "q1", "q2")}
+    plain = Recording(*(rows[name] for name in ("t_s", "gyr1", "acc1", "gyr2", "acc2")))
+    return replace(case, rec=plain, person=replace(case.person, **rows), source=f"{case.source}, with gaps")
+
+
 PELVIS_SHANK = ("human_leg_left", "walk_leg_L")
 ARMS = ("human_elbow_right", *faults.ELBOWS)
 THIGH_FILES = tuple(dict.fromkeys(JOINTS[name].file for name, _ in THIGHS))
@@ -123,6 +157,10 @@ CLASSES: dict[str, BallFault] = {
     "elbow_bends": BallFault(elbow_bends, 150, "hinge"),
     "knee_bends": BallFault(knee_bends, 100, "hinge"),
     "rig_1D": BallFault(rig_hinge, 150, "hinge", HINGE_RIGS),
+    "bends_and_turns": BallFault(bends_and_turns, 200, "two axes"),
+    "turns_carried": BallFault(turns_carried, 100, "turns"),
+    "after_rest": BallFault(after_rest, 30, "two axes"),
+    "with_gaps": BallFault(with_gaps, 100, "two axes"),
 }
 
 
@@ -156,6 +194,10 @@ def simulated_truth(case: PeopleCase, track: two_axes.Track) -> Truth:
     """Of a simulated person. Axis 1: the main axis of what the bones did."""
     rec, count = case.person, len(track.q1)
     heading = true_heading_deg((track.q1, track.q2), (rec.q1[:count], rec.q2[:count]), rec.spec.rate_hz)
+    for gap in np.flatnonzero(np.diff(rec.t_s[:count]) > 1.5 / rec.spec.rate_hz):  # a mean of headings of before and after is none
+        heading[max(gap - round(HEADING_S * rec.spec.rate_hz), 0): gap + round(HEADING_S * rec.spec.rate_hz)] = np.nan
+    if any(name in TURNS for name, _ in rec.spec.activities):
+        return Truth(heading, (rec.r1, rec.r2), (rec.axis1, rec.turn_axis2))
     return Truth(heading, (rec.r1, rec.r2), (None, None) if rec.spec.stiff else (main_axes(rec)[0], None))
 
 

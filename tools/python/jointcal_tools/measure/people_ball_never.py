@@ -17,9 +17,8 @@ QUICK_RUNS = 60
 LISTED = 8  # of a class
 LEAST_RIGHT = 5
 # Classes in which something is known for a reason that is understood: the most of it, in parts of the runs, and the reason.
-THIGHS = ("Two thighs move as one joint about the pelvis in squats and jumps: 0.2 to 1.6 % of the centre's motion is left. In most of them a lever is known only "
-          "because the limit of 60 mm is widened to 72 once the heading is known")
-BELOW_LIMIT = "What is left of the centre's motion, 1 to 4 %, is below the limit of 5 %, mostly in slow or short motion"
+THIGHS = ("Two thighs move as one joint about the pelvis in squats and jumps: 0.2 to 1.6 % of the centre's motion is left")
+BELOW_LIMIT = "What is left of the centre's motion, 1 to 5 %, is below the limit of 5 %, mostly in slow or short motion"
 KNOWN: dict[str, Known] = {
     "both_thighs": (0.02, THIGHS),
     "other_thigh": (0.014, THIGHS),
@@ -135,7 +134,7 @@ def measure(settings: Settings, report: Report) -> None:
     outcomes = run_jobs(measure_case, numbered(counts(settings.count(total, QUICK_RUNS)), settings.only), "people_ball_never", settings)
     rules = "; ".join(f"{name}: {', '.join(item for item, what in zip(ITEMS, rule, strict=True) if what == NEVER) or 'nothing'}"
                       for name, rule in RULES.items())
-    report.text("Runs of 26 s, real where recordings are, else simulated, each to a fresh instance of the joint with two axes, whose heading and "
+    report.text("Runs of 26 s (of the last four classes of 20 to 350 s), real where recordings are, else simulated, each to a fresh instance of the joint with two axes, whose heading and "
                 "levers are those of the ball joint; the classes are described in tools/python/jointcal_tools/measure/people_faults.py and "
                 f"people_ball_cases.py. By its rule a class says what must never be known ({rules}); everything else must never be known and off by more than "
                 f"{BEYOND:g} times its bound, where there is a truth. The counts are of runs in which it is so at any time, in "

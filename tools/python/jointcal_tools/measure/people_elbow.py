@@ -28,12 +28,11 @@ RELATIVE_HZ = 3.0  # of optical relative rates
 MOSTLY_S, MOSTLY_SHARE, MOSTLY_RAD_S = 2.5, 0.85, 0.3  # a motion is mostly about an axis: this share of the square of the relative rate
 MOTIONS = ("bends", "turns")
 # What is not met, and why.
-NOT_COMPLETE = {"people_elbow_E_ROM": "The heading is known to 15 deg only when the elbow has ceased to bend"}
-CENTER_RESTS = ("While the forearm alone turns, the elbow moves at 2 to 3 cm/s, of which skin leaves a quarter: that is just at what noise is "
-                "allowed to leave, so that windows are taken or not by chance")
+NOT_COMPLETE = {"people_elbow_E_ROM": "The heading is known to 15 deg only when the elbow has ceased to bend and to turn; the bound of lever 1 is just above its limit"}
+LEVER_LATE = ("Which axis a motion is about is told by the forearm's lever along itself. While the forearm alone turns, the elbow moves at 2 to 3 cm/s: heading "
+              "and lever become known when it has ceased to")
 NO_HEADING = {"people_ankle_orthosis": "It bends by 7 deg, and its accelerometers clip and read 10.9 m/s^2 at rest"}
-KNOWN_STARTS: dict[int, Known] = {4: (0.75, "Two starts of people_elbow_E_ROM that find axis 2 in the same passage: 12.6 beside a bound of 12.5, "
-                                            "12.1 beside 12.0 deg")}
+KNOWN_STARTS: dict[int, Known] = {}
 
 
 # What the references say of the motion.
@@ -174,7 +173,7 @@ def report_parts(report: Report, parts: list[Part]) -> None:
         word = f"{MOTIONS[p.motion]} only, {'warm' if p.warm else 'cold'}"
         report.require(f"{word}: {ITEMS[own]} becomes known, {ITEMS[other]} does not",
                        f"{ITEMS[own]} {'known' if p.known[own] else 'never'}, {ITEMS[other]} {'known' if p.known[other] else 'never'}",
-                       bool(p.known[own] and not p.known[other]), "" if p.known[other] else CENTER_RESTS)
+                       bool(p.known[own] and not p.known[other]), "" if p.known[other] else LEVER_LATE)
 
 
 def report_availability(report: Report, wholes: list[Whole]) -> None:
