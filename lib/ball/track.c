@@ -9,9 +9,11 @@
 
 #include <float.h>
 
-/// Motion that the heading is a mean over, s: at rest nothing is forgotten, since nothing is learnt. With 2 it is noise that is followed, with
-/// 8 it lags where it drifts.
-#define MEMORY_S 4.0f
+/// Motion that the heading is a mean over, s, and the age of what it was learnt from at which it is half of that: at rest nothing is forgotten,
+/// since nothing is learnt, but then new motion soon says more than old. With half of it it is noise that is followed, with twice it lags where
+/// it drifts.
+#define MEMORY_S 6.0f
+#define OLD_S 10.0f
 
 /// As of functional/track.c: motion that the residual is averaged over, s, the most that one counts, and when it is a slip.
 #define WATCH_S 1.5f
@@ -46,7 +48,7 @@ void jcal_ball_track_add(jcal_ball_t *self, const jcal_tick_t *tick1, const jcal
     const jcal_vec3_t v2 = jcal_levers_velocity(tick2, self->point.r2);
     const jcal_plane_t level1 = {v1.x, v1.y};
     const jcal_plane_t level2 = {v2.x, v2.y};
-    const float fade = 1.0f / (1.0f + (motion_s / MEMORY_S));
+    const float fade = 1.0f / (1.0f + (motion_s * (1.0f + (track->age_s / OLD_S)) / MEMORY_S));
     const jcal_plane_t faded = {fade * track->sum.re, fade * track->sum.im};
     track->age_s = fade * (track->age_s + tick1->dt_s);
     track->sum = jcal_plane_add(faded, motion_s, jcal_plane_against(level2, level1));

@@ -720,10 +720,13 @@ def ball_track(ticks: list, weights: np.ndarray, point: ball.Point) -> np.ndarra
     v1 = np.array([a.velocity - a.lever @ point.r[:3] for a, _ in ticks])
     v2 = np.array([b.velocity - b.lever @ point.r[3:] for _, b in ticks])
     level1, level2 = v1[:, 0] + 1j * v1[:, 1], v2[:, 0] + 1j * v2[:, 1]
-    age = np.cumsum(np.log1p(motion / 4.0))  # of motion, in terms of the heading's memory
+    kept, old = [], 0.0  # what a tick leaves of those before; their mean age
+    for tick, moved in zip(ticks, motion, strict=True):
+        kept.append(1.0 / (1.0 + moved * (1.0 + old / 10.0) / 6.0))
+        old = kept[-1] * (old + tick[0].dt_s)
     recent = 0.0
     for k in range(BALL_TRACKED):
-        z = np.sum(motion[: k + 1] * np.exp(age[: k + 1] - age[k]) * np.conj(level2[: k + 1]) * level1[: k + 1])
+        z = np.sum(motion[: k + 1] * np.array([np.prod(kept[i + 1: k + 1]) for i in range(k + 1)]) * np.conj(level2[: k + 1]) * level1[: k + 1])
         heading = z / abs(z)
         left = abs(level1[k] - heading * level2[k]) ** 2 + (v1[k, 2] - v2[k, 2]) ** 2
         recent += motion[k] / (motion[k] + 1.5) * (min(left / (3.0 * point.size), 50.0) - recent)

@@ -27,6 +27,7 @@ KNOWN: dict[str, Known] = {
     "axis_negated": (0.03, BELOW_LIMIT),
     "axes_swapped": (0.014, BELOW_LIMIT),
     "all_negated": (0.163, "Both accelerometers negated: gravity and the places of the sensors change sign with them, and all equations hold"),
+    "bends_and_turns": (0.015, "Slow bending and turning in phase is one line in each of two windows that overlap"),
     "rig_2D": (0.039, "Which axis a window shows is told by the lever, and the rig's second axis is across its lever, as no forearm's is: it is taken "
                       "for axis 1"),
 }
