@@ -34,8 +34,7 @@ bool jcal_ball_is_joint(const jcal_ball_t *self)
 
 bool jcal_ball_knows_heading(const jcal_ball_t *self)
 {
-    const jcal_ball_verdict_t *const v = &self->verdict;
-    return self->track.known && (v->heading_rad < JCAL_BOUND_UNKNOWN_RAD);
+    return self->verdict.heading_rad < JCAL_BOUND_UNKNOWN_RAD;
 }
 
 /// What speaks against one joint.

@@ -66,9 +66,8 @@ jcal_status_t jcal_two_axes_add(jcal_two_axes_t *self, const jcal_tick_t *tick1,
     }
     if (self->ball.track.known) {
         jcal_axis_windows_add(&self->windows, tick1, tick2, self->ball.track.heading);
-    } else {
-        jcal_axis_windows_cut(
-            &self->windows); /* without a heading there is no relative rate, and none of before fits the next one */
+    } else { /* without a heading there is no relative rate, and none of before fits the next one */
+        jcal_axis_windows_cut(&self->windows);
     }
     doubt(self);
     return JCAL_OK;

@@ -138,6 +138,30 @@ static jcal_ball_result_t told(const jcal_ball_t *joint)
     return out;
 }
 
+/* Of little motion less may be left: what no joint has in common may look small for a moment. */
+static void little_motion_must_leave_less(void)
+{
+    good.sums.motion_s = 4.0f;
+    good.point.lack = 4.0f * (0.5f * 0.05f * good.point.speed2 * 1.01f + 2e-4f);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NOT_ONE_JOINT, judged(&good));
+    good.point.lack = 4.0f * (0.5f * 0.05f * good.point.speed2 * 0.99f + 2e-4f);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, judged(&good));
+    good.sums.motion_s = 80.0f;
+    good.point.lack = 80.0f * (0.05f * good.point.speed2 * 1.01f + 2e-4f);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NOT_ONE_JOINT, judged(&good));
+}
+
+/* What was no joint is none until there is motion enough to say otherwise. */
+static void what_was_refused_stays_so_without_motion(void)
+{
+    good.sums.motion_s = 2.0f;
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_MOTION, judged(&good));
+    good.refused = true;
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NOT_ONE_JOINT, judged(&good));
+    good.sums.motion_s = 20.0f;
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_NONE, judged(&good));
+}
+
 /* Each centre has a limit of its own, and none keeps the joint from being ready. */
 static void centres_are_known_each_by_itself(void)
 {
@@ -236,6 +260,8 @@ int main(void)
     RUN_TEST(the_first_reason_is_told);
     RUN_TEST(what_is_not_a_number_is_no_joint);
     RUN_TEST(hints);
+    RUN_TEST(little_motion_must_leave_less);
+    RUN_TEST(what_was_refused_stays_so_without_motion);
     RUN_TEST(centres_are_known_each_by_itself);
     RUN_TEST(no_bound_without_a_joint);
     RUN_TEST(progress_is_how_far_each_bound_has_come);

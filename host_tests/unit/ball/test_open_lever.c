@@ -76,11 +76,38 @@ static void what_the_ridge_takes_is_in_the_bound(void)
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, without + 0.04f + JCAL_BALL_SKIN1 * 0.06f, ball.verdict.bound1_m);
 }
 
+/* Errors of the regressors shorten a lever, and of one that is open nothing is left: the other has its bound none the less. */
+static void errors_of_one_lever_are_its_own(void)
+{
+    make_up(1.0f);
+    for (int open = 1; open <= 2; ++open) {
+        ball.point.lack = 4e-4f; /* beside (0.2 m)^2 that is 1 % of what is known */
+        ball.point.r1 = (jcal_vec3_t){(open == 2) ? 0.2f : 0.0f, 0.0f, 0.0f};
+        ball.point.r2 = (jcal_vec3_t){(open == 1) ? 0.2f : 0.0f, 0.0f, 0.0f};
+        for (size_t i = 0u; i < 3u; ++i) {
+            static const size_t diagonal[] = {2u, 5u, 9u};
+            ball.sums.levers.own1[diagonal[i]] = (open == 1) ? 0.0f : 1.0f;
+            ball.sums.levers.own2[diagonal[i]] = (open == 2) ? 0.0f : 1.0f;
+        }
+        ball.sums.levers.own1[1] = (open == 2) ? 0.2f : 0.0f; /* slope along x */
+        ball.sums.levers.own2[1] = (open == 1) ? 0.2f : 0.0f;
+        for (unsigned part = 0u; part < JCAL_BALL_BOUND_SLICES; ++part) {
+            jcal_ball_bound(&ball, part);
+        }
+        const float open_m = (open == 1) ? ball.verdict.bound1_m : ball.verdict.bound2_m;
+        const float known_m = (open == 1) ? ball.verdict.bound2_m : ball.verdict.bound1_m;
+        const float skin = ((open == 1) ? JCAL_BALL_SKIN2 : JCAL_BALL_SKIN1) * 0.2f;
+        TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_M, open_m);
+        TEST_ASSERT_FLOAT_WITHIN(2e-5f, 0.003f + 0.5f * sqrtf(2.6e-4f) + 0.2f * 0.01f / 0.99f + skin, known_m);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(what_is_told_has_its_bound);
     RUN_TEST(what_nothing_tells_of_spoils_no_other);
     RUN_TEST(what_the_ridge_takes_is_in_the_bound);
+    RUN_TEST(errors_of_one_lever_are_its_own);
     return UNITY_END();
 }

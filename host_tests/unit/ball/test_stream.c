@@ -251,6 +251,7 @@ static void a_gap_with_another_heading_is_survived(void)
         TEST_ASSERT_FALSE_MESSAGE(run_result(&run).heading.known, "what was known is of other frames");
         TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, run_result(&run).head.status);
         TEST_ASSERT_EQUAL_INT(JCAL_WEAK_HEADING, run_result(&run).head.weak);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, run.joint.past.known);
         for (int k = 0; k < 60; ++k) {
             run_tick(&run);
             TEST_ASSERT_TRUE(run_result(&run).head.status != JCAL_MOVED);

@@ -240,6 +240,24 @@ static void a_gap_keeps_axes_and_begins_windows_anew(void)
     TEST_ASSERT_TRUE(run_result(&run).windows1 > before.windows1);
 }
 
+/* What has been no joint for a while may come back as another mounting: axes wait for a window that agrees. */
+static void a_joint_that_was_lost_leaves_axes_in_doubt(void)
+{
+    const hinge_t elbow = elbow_usual();
+    run_begin(&run, &elbow, NULL);
+    run_for(&run, BEND, 16.0);
+    TEST_ASSERT_TRUE(run_result(&run).for_axis1);
+    run.joint.ball.refused_s = 4.5f;
+    run_for(&run, BEND, 0.05);
+    TEST_ASSERT_TRUE(run_result(&run).for_axis1);
+    run.joint.ball.refused_s = 5.1f;
+    run_for(&run, BEND, 0.05);
+    TEST_ASSERT_FALSE(run_result(&run).for_axis1);
+    run_for(&run, BEND, 5.5);
+    TEST_ASSERT_TRUE(run_result(&run).for_axis1);
+    TEST_ASSERT_TRUE(line_angle(run_result(&run).axis1, elbow_axis(&elbow, 1)) < 0.01);
+}
+
 /* A sensor that sits elsewhere: axes are forgotten with all the rest. */
 static void a_slip_forgets_the_axes(void)
 {
@@ -391,6 +409,7 @@ int main(void)
     RUN_TEST(what_is_no_joint_shows_no_axis);
     RUN_TEST(an_axis_is_known_only_of_a_joint);
     RUN_TEST(a_gap_keeps_axes_and_begins_windows_anew);
+    RUN_TEST(a_joint_that_was_lost_leaves_axes_in_doubt);
     RUN_TEST(a_slip_forgets_the_axes);
     RUN_TEST(times_do_not_matter_but_for_their_order);
     RUN_TEST(another_level_frame_turns_only_the_heading);
