@@ -9,6 +9,7 @@
 #include "levers/levers.h"
 #include "math/angle.h"
 #include "math/chol_small.h"
+#include "math/clear.h"
 #include "math/eig3.h"
 #include "math/plane.h"
 #include "math/scalar.h"
@@ -62,27 +63,28 @@ static float block_coupling(const jcal_ball_sums_t *sums, const jcal_ball_point_
 }
 
 void jcal_ball_information(const jcal_ball_sums_t *sums, const jcal_ball_past_t *past, const jcal_ball_point_t *point,
-                           float *levers, float *coupling, float *headings)
+                           jcal_ball_information_t *out)
 {
+    float *const headings = out->headings;
     const float weight = jcal_ball_weight(sums, point);
     float x[16];
     float g[JCAL_LEVER_UNKNOWNS];
     jcal_levers_cross(&sums->levers, point->heading, x);
-    jcal_levers_normal(&sums->levers, x, levers, g);
+    jcal_levers_normal(&sums->levers, x, out->levers, g);
     for (size_t i = 0u; i < JCAL_SYM_SIZE(JCAL_LEVER_UNKNOWNS); ++i) {
-        levers[i] *= weight;
+        out->levers[i] *= weight;
     }
-    headings[0] = block_coupling(sums, point, 0u, weight, coupling);
+    headings[0] = block_coupling(sums, point, 0u, weight, out->coupling);
     headings[1] = 0.0f;
     headings[2] = 1.0f;
     if (sums->block_motion_s[1] > 0.0f) {
         headings[0] += JCAL_BALL_PULL;
         headings[1] = -JCAL_BALL_PULL;
-        headings[2] = block_coupling(sums, point, 1u, weight, &coupling[JCAL_LEVER_UNKNOWNS]) + JCAL_BALL_PULL +
+        headings[2] = block_coupling(sums, point, 1u, weight, &out->coupling[JCAL_LEVER_UNKNOWNS]) + JCAL_BALL_PULL +
                       jcal_ball_past_pull(past);
     } else {
         for (size_t i = 0u; i < JCAL_LEVER_UNKNOWNS; ++i) {
-            coupling[JCAL_LEVER_UNKNOWNS + i] = 0.0f;
+            out->coupling[JCAL_LEVER_UNKNOWNS + i] = 0.0f;
         }
     }
 }
@@ -120,8 +122,11 @@ static void add_diagonal(float own1, float own2, float *h)
 static void bound_heading(jcal_ball_t *self)
 {
     jcal_ball_verdict_t *const v = &self->verdict;
-    float q[2u * JCAL_LEVER_UNKNOWNS];
-    jcal_ball_information(&self->sums, &self->past, &self->point, v->factor, q, v->left);
+    jcal_ball_information_t all;
+    const float *const q = all.coupling;
+    jcal_ball_information(&self->sums, &self->past, &self->point, &all);
+    jcal_copy(v->factor, all.levers, sizeof v->factor);
+    jcal_copy(v->left, all.headings, sizeof v->left);
     v->heading_rad = JCAL_BOUND_UNKNOWN_RAD;
     v->open = open_information(v->factor);
     add_diagonal(v->open, v->open, v->factor);

@@ -26,9 +26,16 @@
 /// Slice `part`; sets heading_rad, bound1_m and bound2_m of the verdict. Cost: at most 900 multiply-adds.
 void jcal_ball_bound(jcal_ball_t *self, unsigned part);
 
-/// Parts of the information at `point`: about both levers (6 x 6, packed), their coupling to both headings (2 x 6), and about the headings
-/// (2 x 2, packed). A closed block without motion has 1 for its own and no coupling.
+/// The information at a point, in parts.
+typedef struct {
+    float levers[21];    ///< About both levers (6 x 6, packed).
+    float coupling[12];  ///< Of the levers to both headings (2 x 6).
+    float headings
+        [3];  ///< About the headings (2 x 2, packed). A closed block without motion has 1 for its own and no coupling.
+} jcal_ball_information_t;
+
+/// What the sums and the past tell of a point.
 void jcal_ball_information(const jcal_ball_sums_t *sums, const jcal_ball_past_t *past, const jcal_ball_point_t *point,
-                           float *levers, float *coupling, float *headings);
+                           jcal_ball_information_t *out);
 
 #endif /* JCAL_BALL_BOUNDS_H */

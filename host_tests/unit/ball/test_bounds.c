@@ -23,10 +23,11 @@ void tearDown(void)
 /* The whole information, with the share of its largest element about a lever that every direction of the levers is given. */
 static void information_of(const jcal_ball_t *joint, double h[N][N])
 {
-    float levers[21];
-    float coupling[12];
-    float headings[3];
-    jcal_ball_information(&joint->sums, &joint->past, &joint->point, levers, coupling, headings);
+    jcal_ball_information_t all;
+    jcal_ball_information(&joint->sums, &joint->past, &joint->point, &all);
+    const float *const levers = all.levers;
+    const float *const coupling = all.coupling;
+    const float *const headings = all.headings;
     double largest = 0.0;
     for (size_t i = 0; i < 6u; ++i) {
         largest = fmax(largest, (double)levers[jcal_sym_at(i, i)]);

@@ -204,10 +204,11 @@ static void information_and_what_the_past_is_worth(void)
 {
     for (int p = 0; p < GOLDEN_POINTS; ++p) {
         go_to(p);
-        float levers[21];
-        float coupling[12];
-        float of_headings[3];
-        jcal_ball_information(&joint.sums, &joint.past, &joint.point, levers, coupling, of_headings);
+        jcal_ball_information_t all;
+        jcal_ball_information(&joint.sums, &joint.past, &joint.point, &all);
+        const float *const levers = all.levers;
+        const float *const coupling = all.coupling;
+        const float *const of_headings = all.headings;
         const double *const g = golden_information[p];
         double theirs[3];
         memcpy(theirs, &g[33], sizeof theirs);

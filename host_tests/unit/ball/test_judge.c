@@ -178,10 +178,15 @@ static void centres_are_known_each_by_itself(void)
     r = told(&good);
     TEST_ASSERT_FALSE(r.for_center1);
     TEST_ASSERT_TRUE(r.for_center2);
-    good.verdict.status = (uint8_t)JCAL_READY; /* what breathes is still known */
+}
+
+/* What breathes is still known, each centre by itself. */
+static void centres_breathe(void)
+{
+    good.verdict.status = (uint8_t)JCAL_READY;
     good.verdict.agreed = 3u;
     good.verdict.for_center1 = true;
-    good.verdict.for_center2 = false; /* each breathes by itself */
+    good.verdict.for_center2 = false;
     good.verdict.bound1_m = 0.06f * JCAL_HYSTERESIS * 0.99f;
     good.verdict.bound2_m = 0.061f;
     TEST_ASSERT_TRUE(told(&good).for_center1);
@@ -195,7 +200,7 @@ static void centres_are_known_each_by_itself(void)
     TEST_ASSERT_FALSE(told(&good).for_center2);
     good.verdict.bound1_m = 0.02f;
     good.verdict.heading_rad = 0.5f; /* without a heading there is no joint that centres are of */
-    r = told(&good);
+    const jcal_ball_result_t r = told(&good);
     TEST_ASSERT_FALSE(r.for_center1 || r.for_center2);
 }
 
@@ -263,6 +268,7 @@ int main(void)
     RUN_TEST(little_motion_must_leave_less);
     RUN_TEST(what_was_refused_stays_so_without_motion);
     RUN_TEST(centres_are_known_each_by_itself);
+    RUN_TEST(centres_breathe);
     RUN_TEST(no_bound_without_a_joint);
     RUN_TEST(progress_is_how_far_each_bound_has_come);
     RUN_TEST(three_judgements_must_agree);

@@ -45,27 +45,27 @@ typedef struct {
 } angle_motion_t;
 
 typedef struct {
-    bool at_end;       ///< The last row whose orientations were of use had angles.
     uint64_t rows;     ///< Rows with angles.
     jcal_head_t head;  ///< Of the calibration that the rows so far make.
+    bool at_end;       ///< The last row whose orientations were of use had angles.
 
     /* Private. */
+    bool given;    /* the calibration is; else the engines find it */
+    bool has_pose; /* that `frames` of a ball joint are from */
+    bool has_follower;
+    float sign; /* of the axes that are written here against those of the engine */
     angle_source_config_t config;
-    bool given; /* the calibration is; else the engines find it */
+    angle_motion_t motion;
+    row_clock_t clock;
+    jcal_orientation_gate_t gate;
+    jcal_joint_heading_t follower;
+    jcal_ball_pair_t ball;
     jcal_hinge_auto_t hinge;
     jcal_two_dof_auto_t two_dof;
-    jcal_ball_pair_t ball;
-    jcal_joint_frames_t frames; /* of a ball joint, from its pose */
-    bool has_pose;
-    jcal_orientation_gate_t gate;
-    jcal_gate_config_t gate_config;
-    angle_joint_t joint;
     jcal_heading_t own_heading;
-    angle_motion_t motion;
-    float sign; /* of the axes that are written here against those of the engine */
-    jcal_joint_heading_t follower;
-    bool has_follower;
-    row_clock_t clock;
+    jcal_gate_config_t gate_config;
+    jcal_joint_frames_t frames;
+    angle_joint_t joint;
 } angle_source_t;
 
 /// Prepares; `calibration` may be null. False if the library refuses the settings, which would be a mistake of this program.
