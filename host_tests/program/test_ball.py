@@ -125,6 +125,17 @@ class Elbow(BallTest):
         self.assertIn("axis in sensor 2   unknown", between)
         self.assertIn("what would help    hold the joint bent and turn", between)
 
+    def test_the_hinge_notices_that_the_forearm_begins_to_turn(self):
+        """While it only bends it is a hinge; then it says when that ended, and which command to take."""
+        bends = self.run_program("hinge", self.write(rows_until(16)))
+        self.assertEqual(bends.returncode, 0)
+        self.assertNotIn(b"two-dof", bends.stdout)
+        both = self.run_program("hinge", str(DEMO))
+        self.assertEqual(both.returncode, 3)
+        line = next(line for line in both.stdout.decode().splitlines() if line.startswith("  moved "))
+        self.assertGreater(float(line.split()[1]), 16.0)
+        self.assertIn("'jointcal two-dof'", line)
+
     def test_angles_have_columns_of_both(self):
         result = self.run_program("angles", str(DEMO), "--joint", "two-dof")
         self.assertEqual(result.returncode, 0)

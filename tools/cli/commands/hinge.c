@@ -168,6 +168,7 @@ const report_words_t HINGE_WORDS = {
         "no hinge explains the data: another kind of joint (of an elbow 'jointcal two-dof' finds both axes), or sensors that share none",
     .ambiguous = "other axes explain the data about equally",
     .move_joint = "bend and stretch the joint",
+    .moved = "the joint began to move about a second axis: of a forearm that turns 'jointcal two-dof' finds both",
     .asked_for = "both axes",
     .bounded = "axes",
     .unit = "deg",

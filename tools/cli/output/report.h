@@ -18,6 +18,7 @@ typedef struct {
     const char *misfit;      ///< What it means that the data do not fit.
     const char *ambiguous;   ///< What it means that another minimum fits as well.
     const char *move_joint;  ///< How to move the joint.
+    const char *moved;       ///< What else it may be if a sensor seems to have moved; null if nothing.
     const char *asked_for;   ///< What must be known to within the bound: "both axes".
     const char *bounded;     ///< What the two bounds of an event are of: "axes".
     const char *centers[2];  ///< What JCAL_WEAK_CENTER1 and _CENTER2 are, where they are of two joints; else null.
@@ -50,6 +51,8 @@ typedef struct {
     const char *orientations;  ///< Where they come from; null if none are in use.
     bool was_ready;            ///< Ready was entered at least once.
     int64_t ready_us;          ///< When it was entered first, as in the file.
+    bool has_moved;            ///< A sensor has moved and the joint was not ready since ...
+    int64_t moved_us;          ///< ... this time.
     float max_bound;           ///< What the bounds must be below, rad or m.
 } report_t;
 

@@ -235,6 +235,13 @@ static void print_ready_time(FILE *file, const report_t *report)
     } else {
         report_print_words(file, "first ready", "never");
     }
+    if (report->has_moved) {
+        char buffer[32];
+        const char *other = report->words->moved;
+        (void)fprintf(file, "  %-18s %s s after the start: a sensor sits otherwise since then%s%s\n", "moved",
+                      time_text(report->moved_us - report->clock.start_us, buffer), (other != NULL) ? ", or " : "",
+                      (other != NULL) ? other : "");
+    }
 }
 
 void report_print_samples(FILE *file, uint32_t samples, uint32_t rejected,

@@ -180,6 +180,8 @@ static exit_status_t report_changes(session_t *session)
             report->was_ready = true;
             report->ready_us = report->clock.t_us;
         }
+        report->has_moved = now == JCAL_MOVED;
+        report->moved_us = report->clock.t_us;
         if (emit(session, jcal_calibration_string(now)) != EXIT_READY) {
             return EXIT_TROUBLE;
         }
