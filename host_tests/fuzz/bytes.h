@@ -95,15 +95,16 @@ static inline jcal_tick_t tick_at(const uint8_t *data, reading_t reading, uint64
     return out;
 }
 
-/* What every result begins with has words for what is missing, and none where nothing is. */
+/* What every result begins with has words for it; a reason is given exactly where something is missing. */
 static inline void require_words(const jcal_head_t *head)
 {
     require(head->status >= JCAL_COLLECTING && head->status <= JCAL_MOVED);
     require(jcal_calibration_string(head->status) != NULL);
     const bool ready = head->status == JCAL_READY;
     require(ready == (head->reason == JCAL_REASON_NONE) && ready == (jcal_reason_string(head->reason) == NULL));
-    require(ready == (head->weak == JCAL_WEAK_NONE) && ready == (jcal_weak_string(head->weak) == NULL));
-    require(ready == (head->hint == JCAL_HINT_NONE) && ready == (jcal_hint_string(head->hint) == NULL));
+    require((head->weak == JCAL_WEAK_NONE) == (jcal_weak_string(head->weak) == NULL));
+    require((head->hint == JCAL_HINT_NONE) == (jcal_hint_string(head->hint) == NULL));
+    require(!ready || (head->weak == JCAL_WEAK_NONE && head->hint == JCAL_HINT_NONE));
     require((head->status == JCAL_AMBIGUOUS) == (head->reason == JCAL_REASON_SIGN_OPEN));
 }
 
