@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Hub times that go on evenly. See packet/pace.h.
+#include "packet/pace.h"
+
+#include "math/scalar.h"
+#include "packet/envelope.h"
+
+#define NS_PER_US 1000u
+/// Time constant of the approach, s, and its largest share of the time that passes.
+#define PACE_TAU_S 2.0f
+#define PACE_MOST 0.01f
+
+static void advance(jcal_packet_pace_t *self, uint64_t ns)
+{
+    const uint64_t sum = self->ns + ns;
+    self->us += sum / NS_PER_US;
+    self->ns = (uint32_t)(sum % NS_PER_US);
+}
+
+void jcal_pace_begin(jcal_packet_pace_t *self, const jcal_packet_config_t *cfg, uint64_t at, uint64_t us)
+{
+    const uint64_t behind_us = self->us - us; /* huge if the new line is later, as it should be */
+    const uint64_t most_us = (uint64_t)(2e6f * cfg->max_delay_s);
+    self->at = at;
+    if (self->has_last && (behind_us <= most_us)) {
+        advance(self, cfg->period_ns);
+        return;
+    }
+    self->us = us;
+    self->ns = 0u;
+    self->has_last = true;
+}
+
+uint64_t jcal_pace_to(jcal_packet_pace_t *self, uint32_t period_ns, const jcal_envelope_t *envelope, uint64_t at)
+{
+    if (at == self->at) {
+        return self->us; /* the one with which it began */
+    }
+    const int64_t way_ns = (int64_t)(at - self->at) * (int64_t)period_ns;
+    const float way_us = (float)way_ns * 1e-3f;
+    const uint64_t nominal_us = self->us + ((self->ns + (uint64_t)way_ns) / NS_PER_US);
+    const float drift_us = 1e-6f * envelope->drift_ppm * way_us;
+    const float off_us = jcal_envelope_above(envelope, period_ns, at, nominal_us) + drift_us;
+    const float share = jcal_min(way_us * (1e-6f / PACE_TAU_S), 1.0f);
+    const float most_us = PACE_MOST * way_us;
+    const float step_us = drift_us - jcal_max(jcal_min(share * off_us, most_us), -most_us);
+    advance(self, (uint64_t)(way_ns + (int64_t)(1e3f * step_us)));
+    self->at = at;
+    return self->us;
+}
