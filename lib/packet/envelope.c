@@ -141,10 +141,10 @@ static void follow_slope(jcal_envelope_t *self, const jcal_packet_config_t *cfg,
     view_t tilted = *view;
     const float lowest = lowest_above(&tilted, count, slope_ppm);
     float sum = 0.0f;
-    for (uint32_t k = 0u; k < count; ++k) {
+    for (uint32_t k = 0u; (k + 1u) < count; ++k) {
         sum += tilted.y[k] - lowest;
     }
-    const float mean_us = sum / (float)(count - 2u); /* two of them are on the line */
+    const float mean_us = sum / (float)(count - 3u); /* not of the open block; two are on the line */
     self->bound_ppm = jcal_min(BOUND_FLOOR_PPM - (BOUND_SHARE * mean_us / view->x[0]), most);
     const float share = 1.0f - ((self->bound_ppm * self->bound_ppm) / (most * most));
     const float before_ppm = self->drift_ppm;
@@ -213,7 +213,8 @@ static void close_block(jcal_envelope_t *self, uint32_t period_ns, uint64_t us)
 /// True if the packets of some time say that the line is of another past. Follows the mean height.
 static bool is_past(jcal_envelope_t *self, float above_us, uint64_t us, float max_drift_ppm)
 {
-    if (above_us > (HIGH_US + (HIGH_JITTERS * self->jitter_us))) {
+    const bool is_known = self->jitter_count == JITTER_PACKETS;
+    if (is_known && (above_us > (HIGH_US + (HIGH_JITTERS * self->jitter_us)))) {
         self->high_us = self->is_high ? self->high_us : us;
         self->is_high = true;
         return (us - self->high_us) > HIGH_LASTS_US;
@@ -222,7 +223,7 @@ static bool is_past(jcal_envelope_t *self, float above_us, uint64_t us, float ma
     if ((self->bound_ppm < max_drift_ppm) && (above_us < -(LOW_US + (LOW_JITTERS * self->jitter_us)))) {
         return true;
     }
-    self->jitter_count += (self->jitter_count < JITTER_PACKETS) ? 1u : 0u;
+    self->jitter_count += is_known ? 0u : 1u;
     self->jitter_us += (jcal_max(above_us, 0.0f) - self->jitter_us) / (float)self->jitter_count;
     return false;
 }

@@ -10,6 +10,9 @@
 /// Time constant of the approach, s, and its largest share of the time that passes.
 #define PACE_TAU_S 2.0f
 #define PACE_MOST 0.01f
+/// So far off, us, is no matter of pace; the share is then this.
+#define PACE_OFF_US 50000.0f
+#define PACE_MOST_OFF 0.1f
 
 static void advance(jcal_packet_pace_t *self, uint64_t ns)
 {
@@ -32,6 +35,17 @@ void jcal_pace_begin(jcal_packet_pace_t *self, const jcal_packet_config_t *cfg, 
     self->has_last = true;
 }
 
+/// What time goes on by beyond its own pace, us, when it would be `off_us` above the line after `way_us`.
+static float approach(float off_us, float way_us)
+{
+    if (off_us < -PACE_OFF_US) {
+        return -off_us;
+    }
+    const float most_us = way_us * ((off_us > PACE_OFF_US) ? PACE_MOST_OFF : PACE_MOST);
+    const float share = jcal_min(way_us * (1e-6f / PACE_TAU_S), 1.0f);
+    return -jcal_max(jcal_min(share * off_us, most_us), -most_us);
+}
+
 uint64_t jcal_pace_to(jcal_packet_pace_t *self, uint32_t period_ns, const jcal_envelope_t *envelope, uint64_t at)
 {
     if (at == self->at) {
@@ -42,9 +56,7 @@ uint64_t jcal_pace_to(jcal_packet_pace_t *self, uint32_t period_ns, const jcal_e
     const uint64_t nominal_us = self->us + ((self->ns + (uint64_t)way_ns) / NS_PER_US);
     const float drift_us = 1e-6f * envelope->drift_ppm * way_us;
     const float off_us = jcal_envelope_above(envelope, period_ns, at, nominal_us) + drift_us;
-    const float share = jcal_min(way_us * (1e-6f / PACE_TAU_S), 1.0f);
-    const float most_us = PACE_MOST * way_us;
-    const float step_us = drift_us - jcal_max(jcal_min(share * off_us, most_us), -most_us);
+    const float step_us = drift_us + approach(off_us, way_us);
     advance(self, (uint64_t)(way_ns + (int64_t)(1e3f * step_us)));
     self->at = at;
     return self->us;

@@ -3,7 +3,9 @@
 /// Hub times that go on evenly. Private.
 ///
 /// From reading to reading time goes on by n P (1 + d), n the difference of their numbers, and by what brings it nearer to the line of
-/// packet/envelope.h: the share n P / 2 s of the distance, at most 1 % of n P. So times strictly increase, whatever the line does.
+/// packet/envelope.h: the share n P / 2 s of the distance, at most 1 % of n P. More than 50 ms off, as after a step of the clock, time
+/// that is behind the line jumps there, which is a gap; time that is before it waits at most 10 % of n P. So times strictly increase,
+/// whatever the line does.
 #ifndef JCAL_PACKET_PACE_H
 #define JCAL_PACKET_PACE_H
 
