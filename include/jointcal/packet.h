@@ -25,9 +25,9 @@
 /// are late by that, and two sensors on one kind of radio by the same.
 ///
 /// Hub times strictly increase. They follow the line by at most 1 % of the time between two readings, so that a step of the clock becomes
-/// none of the motion; only if they are more than 50 ms off, as after a radio that became slower, they jump there, or wait by 10 %. Lost
+/// none of the motion; only if they are more than 50 ms off, as after a radio that became slower, they jump there, or wait by 10 % of a period. Lost
 /// readings are a gap in time, as long as what was lost. A sensor that begins anew gets a new line, at once. Only a hub whose own clock
-/// goes back by more than twice `max_delay_s` makes times go back, and it counts as a restart.
+/// goes back by more than `max_delay_s` makes times go back, and it counts as a restart.
 ///
 /// Cost: 0.4 KiB of state besides the storage.
 /// Threads: as types.h says: one push may run beside pull or get; pull and get belong to one task.
@@ -63,8 +63,8 @@ typedef struct {
 typedef struct {
     uint32_t readings;   ///< Readings that pull gave out.
     uint32_t lost;       ///< Readings that had not come when a later one did.
-    uint32_t late;       ///< Readings that came after a later one, and were dropped; they count as lost too.
-    uint32_t duplicate;  ///< Readings that came once more, and were dropped.
+    uint32_t late;       ///< Readings that came after a later one, and were dropped; most of them count as lost too.
+    uint32_t duplicate;  ///< Readings that came once more, and were dropped; after 64 others they count as late.
     uint32_t odd;        ///< Readings of packets that fitted no time, and were dropped.
     uint32_t
         restarts;  ///< Times that the counter began anew: three packets went on from each other, and not from those before.

@@ -70,8 +70,12 @@ void jcal_envelope_begin(jcal_envelope_t *self, const jcal_packet_config_t *cfg,
 
 float jcal_envelope_above(const jcal_envelope_t *self, uint32_t period_ns, uint64_t at, uint64_t us)
 {
+    const int64_t far_us = 2 * JCAL_ENVELOPE_FAR_US;
+    int64_t since_us = (int64_t)(us - self->anchor_us);
+    since_us = (since_us < far_us) ? since_us : far_us;
+    since_us = (since_us > -far_us) ? since_us : -far_us;
     const int64_t way_ns = (int64_t)(at - self->anchor_at) * (int64_t)period_ns;
-    const int64_t over_ns = ((int64_t)(us - self->anchor_us) * 1000) - way_ns;
+    const int64_t over_ns = (since_us * 1000) - way_ns;
     const float drift_us = self->drift_ppm * ((float)way_ns * S_PER_NS); /* ppm of s are us */
     return ((float)over_ns * US_PER_NS) - self->above_us - drift_us;
 }

@@ -24,10 +24,14 @@
 #include "jointcal/packet_config.h"
 #include "jointcal/private/packet/envelope.h"
 
+/// Further from the anchor, us, no time means anything: 35 years.
+#define JCAL_ENVELOPE_FAR_US ((int64_t)1 << 50)
+
 /// Begins anew with one packet, whose last reading has number `at`; the drift that was known stays as a first guess.
 void jcal_envelope_begin(jcal_envelope_t *self, const jcal_packet_config_t *cfg, uint64_t at, uint64_t us);
 
-/// By how much a time `us` of reading `at` is above the line, us. Their distances from the anchor are below 2^50 us and 2^61 ns.
+/// By how much a time `us` of reading `at` is above the line, us. The reading is at most twice JCAL_ENVELOPE_FAR_US from the anchor; of a time
+/// further than that only the sign is right.
 float jcal_envelope_above(const jcal_envelope_t *self, uint32_t period_ns, uint64_t at, uint64_t us);
 
 /// Takes in a packet. True if the line had to begin anew with it.

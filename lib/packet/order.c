@@ -6,8 +6,6 @@
 #include "math/scalar.h"
 #include "packet/envelope.h"
 
-/// Further from the clock's anchor, us, no time means anything: 35 years.
-#define FAR_US ((int64_t)1 << 50)
 /// Packets that fit nothing but each other, until they are believed.
 #define ODD_RUN 3u
 /// Readings that are remembered.
@@ -18,7 +16,7 @@
 
 static bool is_far(int64_t us)
 {
-    return (us > FAR_US) || (us < -FAR_US);
+    return (us > JCAL_ENVELOPE_FAR_US) || (us < -JCAL_ENVELOPE_FAR_US);
 }
 
 /// The low bits of a difference, with sign.
@@ -85,6 +83,11 @@ jcal_packet_place_t jcal_order_place(jcal_packet_order_t *self, const jcal_packe
     }
     *first = number_anew(self, cfg, head->counter);
     return JCAL_ORDER_ANEW;
+}
+
+bool jcal_order_went_back(const jcal_packet_order_t *self, const jcal_packet_config_t *cfg, uint64_t arrival_us)
+{
+    return self->has_next && ((int64_t)(self->fit_us - arrival_us) > (int64_t)(1e6f * cfg->max_delay_s));
 }
 
 void jcal_order_begin(jcal_packet_order_t *self, uint64_t first)

@@ -21,6 +21,9 @@ typedef enum {
 jcal_packet_place_t jcal_order_place(jcal_packet_order_t *self, const jcal_packet_config_t *cfg,
                                      const jcal_envelope_t *envelope, const jcal_packet_head_t *head, uint64_t *first);
 
+/// True if the hub's clock went back since the last packet that fitted, by more than `max_delay_s`.
+bool jcal_order_went_back(const jcal_packet_order_t *self, const jcal_packet_config_t *cfg, uint64_t arrival_us);
+
 /// What is numbered anew begins with this reading.
 void jcal_order_begin(jcal_packet_order_t *self, uint64_t first);
 

@@ -10,9 +10,9 @@
 /// Time constant of the approach, s, and its largest share of the time that passes.
 #define PACE_TAU_S 2.0f
 #define PACE_MOST 0.01f
-/// So far off, us, is no matter of pace; the share is then this.
+/// So far off, us, is no matter of pace; then this share of a period is the least step.
 #define PACE_OFF_US 50000.0f
-#define PACE_MOST_OFF 0.1f
+#define PACE_LEAST 0.9f
 
 static void advance(jcal_packet_pace_t *self, uint64_t ns)
 {
@@ -21,13 +21,11 @@ static void advance(jcal_packet_pace_t *self, uint64_t ns)
     self->ns = (uint32_t)(sum % NS_PER_US);
 }
 
-void jcal_pace_begin(jcal_packet_pace_t *self, const jcal_packet_config_t *cfg, uint64_t at, uint64_t us)
+void jcal_pace_begin(jcal_packet_pace_t *self, uint32_t period_ns, uint64_t at, uint64_t us)
 {
-    const uint64_t behind_us = self->us - us; /* huge if the new line is later, as it should be */
-    const uint64_t most_us = (uint64_t)(2e6f * cfg->max_delay_s);
     self->at = at;
-    if (self->has_last && (behind_us <= most_us)) {
-        advance(self, cfg->period_ns);
+    if (self->has_last && ((int64_t)(us - self->us) <= 0)) {
+        advance(self, period_ns);
         return;
     }
     self->us = us;
@@ -36,12 +34,15 @@ void jcal_pace_begin(jcal_packet_pace_t *self, const jcal_packet_config_t *cfg, 
 }
 
 /// What time goes on by beyond its own pace, us, when it would be `off_us` above the line after `way_us`.
-static float approach(float off_us, float way_us)
+static float approach(float off_us, float way_us, float period_us)
 {
     if (off_us < -PACE_OFF_US) {
         return -off_us;
     }
-    const float most_us = way_us * ((off_us > PACE_OFF_US) ? PACE_MOST_OFF : PACE_MOST);
+    if (off_us > PACE_OFF_US) {
+        return -jcal_min(off_us, way_us - (PACE_LEAST * period_us));
+    }
+    const float most_us = PACE_MOST * way_us;
     const float share = jcal_min(way_us * (1e-6f / PACE_TAU_S), 1.0f);
     return -jcal_max(jcal_min(share * off_us, most_us), -most_us);
 }
@@ -56,7 +57,7 @@ uint64_t jcal_pace_to(jcal_packet_pace_t *self, uint32_t period_ns, const jcal_e
     const uint64_t nominal_us = self->us + ((self->ns + (uint64_t)way_ns) / NS_PER_US);
     const float drift_us = 1e-6f * envelope->drift_ppm * way_us;
     const float off_us = jcal_envelope_above(envelope, period_ns, at, nominal_us) + drift_us;
-    const float step_us = drift_us + approach(off_us, way_us);
+    const float step_us = drift_us + approach(off_us, way_us, 1e-3f * (float)period_ns);
     advance(self, (uint64_t)(way_ns + (int64_t)(1e3f * step_us)));
     self->at = at;
     return self->us;

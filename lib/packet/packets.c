@@ -61,9 +61,10 @@ static void begin(jcal_packets_t *self, const jcal_packet_head_t *head, uint64_t
 {
     const uint64_t ahead_us = ((uint64_t)(head->count - 1u) * self->cfg.period_ns) / 1000u;
     self->counts.restarts += self->order.has_next ? 1u : 0u;
+    self->pace.has_last = self->pace.has_last && !jcal_order_went_back(&self->order, &self->cfg, head->arrival_us);
     jcal_order_begin(&self->order, first);
     jcal_envelope_begin(&self->envelope, &self->cfg, first + (head->count - 1u), head->arrival_us);
-    jcal_pace_begin(&self->pace, &self->cfg, first, head->arrival_us - ahead_us);
+    jcal_pace_begin(&self->pace, self->cfg.period_ns, first, head->arrival_us - ahead_us);
 }
 
 /// Counts the readings that are before the next one; they are at the beginning of a packet. Returns how many.
@@ -93,6 +94,7 @@ static bool open_packet(jcal_packets_t *self, const unsigned char *slot)
     if (place == JCAL_ORDER_ANEW) {
         begin(self, &open->head, open->first);
     }
+    self->order.fit_us = open->head.arrival_us;
     open->index = skip_old(self, &open->head, open->first);
     open->is_open = open->index < open->head.count;
     if (open->is_open && (place == JCAL_ORDER_FITS)) {

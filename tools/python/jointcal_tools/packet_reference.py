@@ -22,7 +22,7 @@ BOUND_SHARE, BOUND_FLOOR_PPM = 2.0, 0.5
 JITTER_PACKETS = 64
 HIGH_US, HIGH_JITTERS, HIGH_LASTS_US = 5000.0, 6.0, 5e6
 LOW_US, LOW_JITTERS = 20000.0, 8.0
-TAU_US, PACE, FAR_US, PACE_FAR = 2e6, 0.01, 50000.0, 0.1
+TAU_US, PACE, FAR_US, LEAST = 2e6, 0.01, 50000.0, 0.9
 ODD_RUN, SEEN = 3, 64
 
 
@@ -171,6 +171,7 @@ class Follower:
     next: int | None = None
     seen: set[int] = field(default_factory=set)
     odd: list[Packet] = field(default_factory=list)
+    fit_us: int | None = None  # arrival of the last packet that fitted
     last: tuple[int, float] | None = None  # number and time, us, of the last reading
 
     def __post_init__(self) -> None:
@@ -203,7 +204,8 @@ class Follower:
         self.next, self.seen, self.odd = first, set(), []
         self.clock.begin(first + packet.count - 1, packet.arrival_us)
         start = packet.arrival_us - (packet.count - 1) * self.config.period_us
-        if self.last is not None and 0.0 <= self.last[1] - start <= 2e6 * self.config.max_delay_s:
+        back = self.fit_us is not None and self.fit_us - packet.arrival_us > 1e6 * self.config.max_delay_s
+        if self.last is not None and start <= self.last[1] and not back:
             start = self.last[1] + self.config.period_us
         self.last = (first, start)
         return first
@@ -217,8 +219,10 @@ class Follower:
         off = us + way + drift - self.clock.line(at)
         if off < -FAR_US:
             step = -off
+        elif off > FAR_US:
+            step = -min(off, way - LEAST * self.config.period_us)
         else:
-            most = way * (PACE_FAR if off > FAR_US else PACE)
+            most = way * PACE
             step = -float(np.clip(off * min(way / TAU_US, 1.0), -most, most))
         self.last = (at, us + way + drift + step)
         return self.last[1]
@@ -242,7 +246,7 @@ class Follower:
                 return []
             last = self.begin(packet) + packet.count - 1
             anew = True
-        self.odd = []
+        self.odd, self.fit_us = [], packet.arrival_us
         new = self.drop_old(range(last - packet.count + 1, last + 1))
         if new and not anew:
             self.counts["steps"] += self.clock.put(last, packet.arrival_us)

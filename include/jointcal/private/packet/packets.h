@@ -23,6 +23,7 @@ typedef struct {
 typedef struct {
     uint64_t next;         ///< Number of the reading that is to come; grows as long as the sensor is known.
     uint64_t seen;         ///< Bit k: reading next - 1 - k has come.
+    uint64_t fit_us;       ///< Arrival of the last packet that fitted.
     uint64_t odd_us;       ///< Arrival of the last packet that fitted nothing ...
     uint32_t odd_counter;  ///< ... its counter ...
     uint32_t odd_run;      ///< ... and how many of them went on from each other.
