@@ -196,10 +196,16 @@ static void drop(jcal_envelope_t *self, uint32_t count)
     self->count -= count;
 }
 
+/// After so long a silence the low bits of the points mean nothing any more.
+static bool is_long_since(const jcal_envelope_t *self, uint64_t us)
+{
+    return (int64_t)(us - self->anchor_us) > (int64_t)POINT_OLDEST_US;
+}
+
 /// The open block is over.
 static void close_block(jcal_envelope_t *self, uint32_t period_ns, uint64_t us)
 {
-    uint32_t old = 0u;
+    uint32_t old = is_long_since(self, us) ? self->count : 0u;
     while ((old < self->count) && (((uint32_t)us - self->points[old].us) > POINT_OLDEST_US)) {
         old++;
     }
@@ -240,7 +246,7 @@ bool jcal_envelope_put(jcal_envelope_t *self, const jcal_packet_config_t *cfg, u
         return true;
     }
     self->above_us += jcal_min(above_us, 0.0f);
-    if (((uint32_t)at - self->open_at) >= self->width) {
+    if ((((uint32_t)at - self->open_at) >= self->width) || is_long_since(self, us)) {
         close_block(self, cfg->period_ns, us);
         open_block(self, at, us);
         draw(self, cfg, at, us);
