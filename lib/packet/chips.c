@@ -4,13 +4,15 @@
 ///
 /// | chip | document | where |
 /// |---|---|---|
-/// | LSM6DSV | ST DS13476 | table of mechanical characteristics: LA_So 0.061 to 0.488 mg/LSB, G_So 4.375 to 140 mdps/LSB |
-/// | BMI270 | Bosch BST-BMI270-DS000, revisions 1.3 and 1.5 | specification: 16,384 LSB/g at 2 g, 262.4 LSB/dps at 125 deg/s |
-/// | ICM-42688 | TDK DS-000347 | gyroscope and accelerometer specifications: 16.4 to 2097.2 LSB/dps, 2,048 to 16,384 LSB/g |
-/// | ICM-20948 | TDK DS-000189 revision 1.3 | table 1: 16.4 to 131 LSB/dps; table 2: 2,048 to 16,384 LSB/g |
-/// | BNO08x | CEVA 1000-3927 and SH-2 reference manual | calibrated gyroscope: rad/s, Q point 9; accelerometer: m/s^2, Q point 8 |
-/// | BHI260 | Bosch BST-BHI260AP-DS000 revision 1.1 | specification: 16.4 LSB/dps at 2000 deg/s, 4,096 LSB/g at 8 g |
-/// | MPU6050 | InvenSense RM-MPU-6000A revision 4.2 | registers 59 to 64, 67 to 72: 16,384 to 2,048 LSB/g, 131 to 16.4 LSB/dps |
+/// | LSM6DSV | ST DS13476 | table 2, mechanical characteristics: LA_So 0.061 to 0.488 mg/LSB, G_So 4.375 to 140 mdps/LSB |
+/// | BMI270 | Bosch BST-BMI270-DS000 | electrical specification: 16,384 to 2,048 LSB/g, 262.4 to 16.4 LSB/dps |
+/// | ICM-42688 | TDK DS-000347 | tables 1 and 2: 16.4 to 2,097.2 LSB/dps, 2,048 to 16,384 LSB/g |
+/// | ICM-20948 | TDK DS-000189 revision 1.3 | table 1: 131 to 16.4 LSB/dps; table 2: 16,384 to 2,048 LSB/g |
+/// | BNO08x | 1000-3927 and the SH-2 reference manual | calibrated gyroscope: rad/s, Q point 9; accelerometer: m/s^2, Q point 8 |
+/// | BHI260 | Bosch BST-BHI260AP-DS000 | electrical specification: 16.4 LSB/dps at 2000 deg/s, 4,096 LSB/g at 8 g |
+/// | MPU6050 | InvenSense RM-MPU-6000A-00 revision 4.2 | registers 67 to 72: 131 to 16.4 LSB/dps; 59 to 64: 16,384 to 2,048 LSB/g |
+///
+/// The tables of ICM-20948 and MPU6050 (gyroscope) were read in the document, the others where vendors and drivers quote them.
 ///
 /// Where a sheet prints 131, 65.5, 32.8, 16.4 LSB/dps (Bosch: multiples of 16.4) the full scale is 2^15 steps, which is what they round:
 /// 16.384 at 2000 deg/s. The difference, 0.1 %, is a tenth and less of the sheets' tolerance. ST's steps are no such share: 2000 deg/s

@@ -254,13 +254,17 @@ static void assert_wrong(const char *field, const jcal_packet_config_t *config)
         TEST_ASSERT_NULL(jcal_packet_config_check(&config));                                                           \
     } while (0)
 
-static void settings_out_of_their_ranges_are_named(void)
+static void counts_out_of_their_ranges_are_named(void)
 {
     CHECK("period_ns", period_ns, 499999u, 500000u, 1000000000u, 1000000001u);
     CHECK("counter_bits", counter_bits, 7u, 9u, 32u, 33u);
     CHECK("per_packet", per_packet, 0u, 1u, 16u, 17u);
     CHECK("packets", packets, 1u, 2u, 256u, 512u);
     CHECK("packets", packets, 0u, 4u, 128u, 3u);
+}
+
+static void limits_out_of_their_ranges_are_named(void)
+{
     CHECK("max_delay_s", max_delay_s, 0.019f, 0.02f, 10.0f, 10.1f);
     CHECK("max_drift_ppm", max_drift_ppm, 9.9f, 10.0f, 1000.0f, NAN);
     CHECK("values", values, (jcal_packet_values_t)2, JCAL_PACKET_SI, JCAL_PACKET_SI, (jcal_packet_values_t)7);
@@ -300,7 +304,8 @@ int main(void)
     RUN_TEST(floats_are_handed_through_whatever_they_are);
     RUN_TEST(storage_may_lie_anywhere_and_must_be_large_enough);
     RUN_TEST(arguments_that_are_wrong_leave_no_trace);
-    RUN_TEST(settings_out_of_their_ranges_are_named);
+    RUN_TEST(counts_out_of_their_ranges_are_named);
+    RUN_TEST(limits_out_of_their_ranges_are_named);
     RUN_TEST(raw_values_need_a_scale);
     return UNITY_END();
 }
