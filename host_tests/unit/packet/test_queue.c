@@ -8,7 +8,7 @@
 #include <math.h>
 
 static jcal_packets_t packets;
-static unsigned char storage[JCAL_PACKETS_STORAGE_BYTES(RADIO_PACKETS, 16, JCAL_PACKET_SI)];
+static unsigned char storage[JCAL_PACKETS_STORAGE_BYTES(256, 16, JCAL_PACKET_SI)];
 static float values[96];
 
 void setUp(void)
@@ -241,39 +241,59 @@ static void assert_wrong(const char *field, const jcal_packet_config_t *config)
                           jcal_packets_init(&packets, config, storage, sizeof storage));
 }
 
-#define CHECK(field, member, low_out, low, high, high_out)                                                             \
-    do {                                                                                                               \
-        jcal_packet_config_t config = jcal_packet_config_default();                                                    \
-        config.member = (low_out);                                                                                     \
-        assert_wrong(field, &config);                                                                                  \
-        config.member = (high_out);                                                                                    \
-        assert_wrong(field, &config);                                                                                  \
-        config.member = (low);                                                                                         \
-        TEST_ASSERT_NULL(jcal_packet_config_check(&config));                                                           \
-        config.member = (high);                                                                                        \
-        TEST_ASSERT_NULL(jcal_packet_config_check(&config));                                                           \
-    } while (0)
+/* A config of which one field is about to be changed. */
+static jcal_packet_config_t *fresh(void)
+{
+    static jcal_packet_config_t config;
+    config = jcal_packet_config_default();
+    return &config;
+}
 
 static void counts_out_of_their_ranges_are_named(void)
 {
-    CHECK("period_ns", period_ns, 499999u, 500000u, 1000000000u, 1000000001u);
-    CHECK("counter_bits", counter_bits, 7u, 9u, 32u, 33u);
-    CHECK("per_packet", per_packet, 0u, 1u, 16u, 17u);
-    CHECK("packets", packets, 1u, 2u, 256u, 512u);
-    CHECK("packets", packets, 0u, 4u, 128u, 3u);
+    static const uint32_t period_ns[4] = {499999u, 1000000001u, 500000u, 1000000000u};
+    static const uint8_t bits[4] = {7, 33, 9, 32};
+    static const uint8_t per_packet[4] = {0, 17, 1, 16};
+    static const uint16_t powers[4] = {1, 512, 2, 256};
+    static const uint16_t others[4] = {0, 3, 4, 128};
+    for (unsigned k = 0; k < 4; ++k) {
+        jcal_packet_config_t *config = fresh();
+        config->period_ns = period_ns[k];
+        assert_wrong((k < 2) ? "period_ns" : NULL, config);
+        config = fresh();
+        config->counter_bits = bits[k];
+        assert_wrong((k < 2) ? "counter_bits" : NULL, config);
+        config = fresh();
+        config->per_packet = per_packet[k];
+        assert_wrong((k < 2) ? "per_packet" : NULL, config);
+        config = fresh();
+        config->packets = powers[k];
+        assert_wrong((k < 2) ? "packets" : NULL, config);
+        config->packets = others[k];
+        assert_wrong((k < 2) ? "packets" : NULL, config);
+    }
 }
 
 static void limits_out_of_their_ranges_are_named(void)
 {
-    CHECK("max_delay_s", max_delay_s, 0.019f, 0.02f, 10.0f, 10.1f);
-    CHECK("max_drift_ppm", max_drift_ppm, 9.9f, 10.0f, 1000.0f, NAN);
-    CHECK("values", values, (jcal_packet_values_t)2, JCAL_PACKET_SI, JCAL_PACKET_SI, (jcal_packet_values_t)7);
+    static const float delay_s[4] = {0.019f, 10.1f, 0.02f, 10.0f};
+    static const float drift_ppm[4] = {9.9f, NAN, 10.0f, 1000.0f};
+    for (unsigned k = 0; k < 4; ++k) {
+        jcal_packet_config_t *config = fresh();
+        config->max_delay_s = delay_s[k];
+        assert_wrong((k < 2) ? "max_delay_s" : NULL, config);
+        config = fresh();
+        config->max_drift_ppm = drift_ppm[k];
+        assert_wrong((k < 2) ? "max_drift_ppm" : NULL, config);
+    }
+    jcal_packet_config_t *config = fresh();
+    config->counter_bits = 8; /* 2.56 s a round */
+    assert_wrong("max_delay_s", config);
+    config->max_delay_s = 1.28f;
+    assert_wrong(NULL, config);
+    config->values = (jcal_packet_values_t)2;
+    assert_wrong("values", config);
     TEST_ASSERT_EQUAL_STRING("config", jcal_packet_config_check(NULL));
-    jcal_packet_config_t config = jcal_packet_config_default();
-    config.counter_bits = 8; /* 2.56 s a round */
-    assert_wrong("max_delay_s", &config);
-    config.max_delay_s = 1.28f;
-    assert_wrong(NULL, &config);
 }
 
 static void raw_values_need_a_scale(void)
