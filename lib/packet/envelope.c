@@ -104,8 +104,10 @@ static bool is_above(const view_t *view, uint32_t a, uint32_t b, uint32_t c)
 static float hull_slope(const view_t *view, uint32_t count)
 {
     uint32_t corner[POINTS];
-    uint32_t corners = 0u;
-    for (uint32_t k = 0u; k < count; ++k) {
+    uint32_t corners = 2u;
+    corner[0] = 0u;
+    corner[1] = 1u;
+    for (uint32_t k = 2u; k < count; ++k) {
         while ((corners >= 2u) && is_above(view, corner[corners - 2u], corner[corners - 1u], k)) {
             corners--; /* each point goes once at most */
         }
