@@ -74,21 +74,23 @@ float jcal_envelope_above(const jcal_envelope_t *self, uint32_t period_ns, uint6
     int64_t since_us = (int64_t)(us - self->anchor_us);
     since_us = (since_us < far_us) ? since_us : far_us;
     since_us = (since_us > -far_us) ? since_us : -far_us;
-    const int64_t way_ns = (int64_t)(at - self->anchor_at) * (int64_t)period_ns;
-    const int64_t over_ns = (since_us * 1000) - way_ns;
-    const float drift_us = self->drift_ppm * ((float)way_ns * S_PER_NS); /* ppm of s are us */
-    return ((float)over_ns * US_PER_NS) - self->above_us - drift_us;
+    const int64_t readings = (int64_t)(at - self->anchor_at);
+    const int64_t over_ns = (since_us * 1000) - (readings * (int64_t)period_ns);
+    const float way_s = jcal_float_of(readings) * ((float)period_ns * S_PER_NS);
+    return (jcal_float_of(over_ns) * US_PER_NS) - self->above_us - (self->drift_ppm * way_s); /* ppm of s are us */
 }
 
 /// The points as seen from the last one.
 static void look(const jcal_envelope_t *self, uint32_t period_ns, view_t *view)
 {
     const jcal_envelope_point_t *const last = &self->points[self->count - 1u];
+    const float period_s = (float)period_ns * S_PER_NS;
     for (uint32_t k = 0u; k < self->count; ++k) {
-        const int64_t way_ns = (int64_t)(int32_t)(self->points[k].at - last->at) * (int64_t)period_ns;
-        const int64_t over_ns = ((int64_t)(int32_t)(self->points[k].us - last->us) * 1000) - way_ns;
-        view->x[k] = (float)way_ns * S_PER_NS;
-        view->y[k] = ((float)over_ns * US_PER_NS) - (self->drift_ppm * view->x[k]);
+        const int32_t readings = (int32_t)(self->points[k].at - last->at);
+        const int32_t us = (int32_t)(self->points[k].us - last->us);
+        const int64_t over_ns = ((int64_t)us * 1000) - ((int64_t)readings * (int64_t)period_ns);
+        view->x[k] = (float)readings * period_s;
+        view->y[k] = (jcal_float_of(over_ns) * US_PER_NS) - (self->drift_ppm * view->x[k]);
     }
 }
 
@@ -124,38 +126,41 @@ static float hull_slope(const view_t *view, uint32_t count)
     return (view->y[b] - view->y[a]) / (view->x[b] - view->x[a]);
 }
 
-/// Lowest y above a line of this slope through the last point, which is at 0; y becomes what is above it.
-static float lowest_above(view_t *view, uint32_t count, float slope_ppm)
+/// Lowest y above a line of this slope through the last point, which is at 0.
+static float lowest_above(const view_t *view, uint32_t count, float slope_ppm)
 {
     float lowest = 0.0f;
     for (uint32_t k = 0u; k < count; ++k) {
-        view->y[k] -= slope_ppm * view->x[k];
-        lowest = jcal_min(view->y[k], lowest);
+        lowest = jcal_min(view->y[k] - (slope_ppm * view->x[k]), lowest);
     }
     return lowest;
 }
 
-/// Moves the drift as far as the points tell it.
-static void follow_slope(jcal_envelope_t *self, const jcal_packet_config_t *cfg, view_t *view)
+/// Mean height above the line of this slope that touches the points; not of the open block's, and two are on the line.
+static float mean_height(const view_t *view, uint32_t count, float slope_ppm)
 {
-    const float most = cfg->max_drift_ppm;
-    const uint32_t count = self->count;
-    if (count < POINTS_MIN) {
-        return;
-    }
-    const float slope_ppm = hull_slope(view, count);
-    view_t tilted = *view;
-    const float lowest = lowest_above(&tilted, count, slope_ppm);
+    const float lowest = lowest_above(view, count, slope_ppm);
     float sum = 0.0f;
     for (uint32_t k = 0u; (k + 1u) < count; ++k) {
-        sum += tilted.y[k] - lowest;
+        sum += (view->y[k] - (slope_ppm * view->x[k])) - lowest;
     }
-    const float mean_us = sum / (float)(count - 3u); /* not of the open block; two are on the line */
+    return sum / (float)(count - 3u);
+}
+
+/// Moves the drift as far as the points tell it; returns by how much, ppm.
+static float follow_slope(jcal_envelope_t *self, const jcal_packet_config_t *cfg, const view_t *view)
+{
+    const float most = cfg->max_drift_ppm;
+    if (self->count < POINTS_MIN) {
+        return 0.0f;
+    }
+    const float slope_ppm = hull_slope(view, self->count);
+    const float mean_us = mean_height(view, self->count, slope_ppm);
     self->bound_ppm = jcal_min(BOUND_FLOOR_PPM - (BOUND_SHARE * mean_us / view->x[0]), most);
     const float share = 1.0f - ((self->bound_ppm * self->bound_ppm) / (most * most));
     const float before_ppm = self->drift_ppm;
     self->drift_ppm = jcal_max(jcal_min(before_ppm + (share * slope_ppm), most), -most);
-    (void)lowest_above(view, count, self->drift_ppm - before_ppm);
+    return self->drift_ppm - before_ppm;
 }
 
 /// Draws the line anew; its anchor is the last point, which is the packet `at`.
@@ -163,19 +168,21 @@ static void draw(jcal_envelope_t *self, const jcal_packet_config_t *cfg, uint64_
 {
     view_t view;
     look(self, cfg->period_ns, &view);
-    follow_slope(self, cfg, &view);
+    const float turned_ppm = follow_slope(self, cfg, &view);
     set_anchor(self, at, us);
-    self->above_us = lowest_above(&view, self->count, 0.0f);
+    self->above_us = lowest_above(&view, self->count, turned_ppm);
     self->open_us = -self->above_us;
 }
 
-/// Height of a point that is kept, us, above any line of the slope of now.
-static float height(const jcal_envelope_t *self, uint32_t period_ns, const jcal_envelope_point_t *point)
+/// True if b, which is later, is lower than a, both above any line of the slope of now.
+static bool is_lower(const jcal_envelope_t *self, uint32_t period_ns, const jcal_envelope_point_t *b,
+                     const jcal_envelope_point_t *a)
 {
-    const int32_t readings = (int32_t)(point->at - (uint32_t)self->anchor_at);
-    const int32_t us = (int32_t)(point->us - (uint32_t)self->anchor_us);
-    return jcal_envelope_above(self, period_ns, self->anchor_at + (uint64_t)(int64_t)readings,
-                               self->anchor_us + (uint64_t)(int64_t)us);
+    const int32_t readings = (int32_t)(b->at - a->at);
+    const int32_t us = (int32_t)(b->us - a->us);
+    const int64_t over_ns = ((int64_t)us * 1000) - ((int64_t)readings * (int64_t)period_ns);
+    const float drift_ns = self->drift_ppm * 1e-6f * ((float)readings * (float)period_ns);
+    return jcal_float_of(over_ns) < drift_ns;
 }
 
 /// Of each two neighbours the lower one stays; blocks take twice as long.
@@ -184,7 +191,7 @@ static void join(jcal_envelope_t *self, uint32_t period_ns)
     for (uint32_t k = 0u; (2u * k) + 1u < self->count; ++k) {
         const jcal_envelope_point_t *const a = &self->points[2u * k];
         const jcal_envelope_point_t *const b = &self->points[(2u * k) + 1u];
-        self->points[k] = (height(self, period_ns, a) < height(self, period_ns, b)) ? *a : *b;
+        self->points[k] = is_lower(self, period_ns, b, a) ? *b : *a;
     }
     self->count /= 2u; /* 16 of them */
     self->width *= 2u;

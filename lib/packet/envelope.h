@@ -24,8 +24,8 @@
 #include "jointcal/packet_config.h"
 #include "jointcal/private/packet/envelope.h"
 
-/// Further from the anchor, us, no time means anything: 35 years.
-#define JCAL_ENVELOPE_FAR_US ((int64_t)1 << 50)
+/// Further from the anchor, us, no time means anything: 1.1 years.
+#define JCAL_ENVELOPE_FAR_US ((int64_t)1 << 45)
 
 /// Begins anew with one packet, whose last reading has number `at`; the drift that was known stays as a first guess.
 void jcal_envelope_begin(jcal_envelope_t *self, const jcal_packet_config_t *cfg, uint64_t at, uint64_t us);

@@ -37,7 +37,7 @@ static bool number_last(const jcal_packet_config_t *cfg, const jcal_envelope_t *
         return false;
     }
     int64_t periods = (since_us * 1000) / (int64_t)cfg->period_ns;
-    periods -= (int64_t)((float)periods * (1e-6f * envelope->drift_ppm));
+    periods -= (int32_t)(jcal_float_of(periods) * (1e-6f * envelope->drift_ppm)); /* below 2^26 */
     const uint64_t guess = envelope->anchor_at + (uint64_t)periods;
     const uint32_t counter = head->counter + (head->count - 1u);
     *last = guess + (uint64_t)(int64_t)wrapped(counter - (uint32_t)guess, cfg->counter_bits);
@@ -54,7 +54,7 @@ static bool goes_on(const jcal_packet_order_t *self, const jcal_packet_config_t 
     if ((self->odd_run == 0u) || (readings <= 0) || (since_us < 0) || is_far(since_us)) {
         return false;
     }
-    const float off_s = 1e-9f * (float)((since_us * 1000) - ((int64_t)readings * (int64_t)cfg->period_ns));
+    const float off_s = 1e-9f * jcal_float_of((since_us * 1000) - ((int64_t)readings * (int64_t)cfg->period_ns));
     return jcal_within(off_s, -cfg->max_delay_s, cfg->max_delay_s);
 }
 
@@ -87,7 +87,7 @@ jcal_packet_place_t jcal_order_place(jcal_packet_order_t *self, const jcal_packe
 
 bool jcal_order_went_back(const jcal_packet_order_t *self, const jcal_packet_config_t *cfg, uint64_t arrival_us)
 {
-    return self->has_next && ((int64_t)(self->fit_us - arrival_us) > (int64_t)(1e6f * cfg->max_delay_s));
+    return self->has_next && ((int64_t)(self->fit_us - arrival_us) > (int32_t)(1e6f * cfg->max_delay_s));
 }
 
 void jcal_order_begin(jcal_packet_order_t *self, uint64_t first)
