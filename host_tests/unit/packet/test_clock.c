@@ -179,6 +179,30 @@ static void packets_that_arrive_together_leave_4_ms(void)
     }
 }
 
+/* A first packet that was slow: times come nearer to the line by 1 % of what passes, and not by more. */
+static void a_slow_first_packet_makes_no_step(void)
+{
+    radio_t radio = radio_begin();
+    radio.jitter_s = 0.0;
+    start(&radio);
+    radio.delay_s += 0.045;
+    (void)run(&radio, 0.005);
+    radio.delay_s -= 0.045;
+    radio.last_s = 0.0;
+    uint64_t last_us = radio.hub0_us + 50000;
+    for (unsigned k = 1; k < 1500; ++k) {
+        float values[96];
+        const jcal_packet_t packet = radio_next(&radio, values);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_packets_push(&packets, &packet));
+        jcal_reading_t reading;
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_packets_pull(&packets, &reading));
+        TEST_ASSERT_TRUE((reading.t_us >= last_us + 9899) && (reading.t_us <= last_us + 10001));
+        last_us = reading.t_us;
+    }
+    const double off_s = 1e-6 * (double)(last_us - radio.hub0_us) - radio_time(&radio, 1499) - radio.delay_s;
+    TEST_ASSERT_TRUE(fabs(off_s) < 1e-4);
+}
+
 static void hours_do_not_wear_it_out(void)
 {
     radio_t radio = radio_begin();
@@ -194,17 +218,17 @@ static void hours_do_not_wear_it_out(void)
     assert_contract(&found);
 }
 
-/* All packets need 60 ms more from some moment on, or less: the clock is learnt anew, times go on evenly. */
+/* All packets need 150 ms more from some moment on, or less: the clock is learnt anew, times go on evenly. */
 static void a_radio_that_becomes_slower_or_faster_is_learnt_anew(void)
 {
     for (int way = -1; way <= 1; way += 2) {
         radio_t radio = radio_begin();
-        radio.delay_s = 0.1;
+        radio.delay_s = 0.2;
         radio.jitter_s = 0.005;
         radio.drift_ppm = 77.0;
         start(&radio);
         (void)run(&radio, 60.0);
-        radio.delay_s += 0.06 * way;
+        radio.delay_s += 0.15 * way;
         radio.last_s = 0.0;
         float values[96];
         uint64_t last_us = 0;
@@ -214,9 +238,9 @@ static void a_radio_that_becomes_slower_or_faster_is_learnt_anew(void)
             TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_packets_push(&packets, &packet));
             jcal_reading_t reading;
             TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_packets_pull(&packets, &reading));
-            const bool is_jump = (last_us != 0) && (reading.t_us > last_us + 10110); /* of 60 ms, if it became slower */
+            const bool is_jump = (last_us != 0) && (reading.t_us > last_us + 10110); /* if it became slower */
             TEST_ASSERT_TRUE((last_us == 0) || (reading.t_us > last_us + 8990));
-            TEST_ASSERT_TRUE(!is_jump || ((way > 0) && (reading.t_us < last_us + 75000)));
+            TEST_ASSERT_TRUE(!is_jump || ((way > 0) && (reading.t_us < last_us + 165000)));
             jumps += is_jump ? 1u : 0u;
             last_us = reading.t_us;
         }
@@ -237,6 +261,7 @@ static void a_long_silence_is_a_gap(void)
     for (unsigned k = 0; k < 5; ++k) {
         radio_t radio = radio_begin();
         radio.drift_ppm = 500.0;
+        radio.bits = 10; /* a round is 10 s, the drift of a night is 14 s */
         start(&radio);
         (void)run(&radio, RUN_S);
         const uint64_t before = radio.sent;
@@ -267,6 +292,7 @@ int main(void)
     RUN_TEST(other_rates_do_as_well);
     RUN_TEST(without_delays_times_are_exact_to_their_unit);
     RUN_TEST(packets_that_arrive_together_leave_4_ms);
+    RUN_TEST(a_slow_first_packet_makes_no_step);
     RUN_TEST(hours_do_not_wear_it_out);
     RUN_TEST(a_radio_that_becomes_slower_or_faster_is_learnt_anew);
     RUN_TEST(a_long_silence_is_a_gap);

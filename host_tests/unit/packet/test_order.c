@@ -243,6 +243,39 @@ static void one_packet_that_fits_nothing_costs_that_packet(void)
     TEST_ASSERT_TRUE(fabsf(status.drift_ppm) < 20.0f);
 }
 
+static void an_odd_packet_that_is_repeated_is_no_other_sensor(void)
+{
+    radio_t radio = radio_begin();
+    start(&radio);
+    run(&radio, 10.0);
+    jcal_packet_t packet = radio_next(&radio, values);
+    packet.counter += 30000u;
+    for (unsigned k = 0; k < 5; ++k) {
+        push(&packet);
+        pull(0, 0, 1);
+        packet.arrival_us += 1000;
+    }
+    next(&radio);
+    assert_counts(1, 0, 0, 5, 0);
+}
+
+/* Begun anew while packets of before were still coming: what it kept meanwhile was measured before the last of those. */
+static void times_increase_though_a_sensor_begins_anew(void)
+{
+    radio_t radio = radio_begin();
+    radio.count = 16;
+    start(&radio);
+    run(&radio, 20.0);
+    const uint64_t arrival_us = radio.hub0_us + (uint64_t)(1e6 * radio.last_s) + 20000u;
+    for (uint64_t first = 0; first < 48; first += 16) {
+        jcal_packet_t packet = radio_packet(&radio, first, arrival_us + first, values);
+        packet.counter += 40000u;
+        push(&packet);
+    }
+    pull(32, 16, 2); /* times are compared in there */
+    assert_counts(0, 0, 0, 32, 1);
+}
+
 /* The counter begins at 0 again, and the sensor's clock with it; three packets, and it is believed. */
 static void a_sensor_that_begins_anew_is_followed_anew(void)
 {
@@ -352,6 +385,8 @@ int main(void)
     RUN_TEST(packets_may_overlap);
     RUN_TEST(bursts_have_the_times_at_which_they_were_measured);
     RUN_TEST(one_packet_that_fits_nothing_costs_that_packet);
+    RUN_TEST(an_odd_packet_that_is_repeated_is_no_other_sensor);
+    RUN_TEST(times_increase_though_a_sensor_begins_anew);
     RUN_TEST(a_sensor_that_begins_anew_is_followed_anew);
     RUN_TEST(a_short_counter_that_begins_anew_is_followed_too);
     RUN_TEST(a_hub_whose_clock_goes_back_goes_on_from_there);
