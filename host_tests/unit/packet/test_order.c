@@ -243,6 +243,31 @@ static void one_packet_that_fits_nothing_costs_that_packet(void)
     TEST_ASSERT_TRUE(fabsf(status.drift_ppm) < 20.0f);
 }
 
+/* Times that no clock is near to, with or without a counter that goes on: each costs its packet. */
+static void wild_times_cost_their_packets(void)
+{
+    static const uint64_t away_us[] = {1000000000u, (uint64_t)1 << 44, (uint64_t)1 << 46, (uint64_t)1 << 62};
+    radio_t radio = radio_begin();
+    radio.hub0_us = (uint64_t)1 << 63;
+    start(&radio);
+    run(&radio, 10.0);
+    for (unsigned k = 0; k < 8; ++k) {
+        jcal_packet_t packet = radio_next(&radio, values);
+        packet.arrival_us += (k < 4) ? away_us[k] : (0u - away_us[k - 4u]);
+        packet.counter += (k % 2u) * 30000u;
+        push(&packet);
+        pull(0, 0, 1);
+        packet.arrival_us += (k % 2u == 0u) ? 10000u : (0u - 10000u);
+        packet.counter += (k < 6) ? 1u : (0u - 1u);
+        push(&packet);
+        pull(0, 0, 1);
+        assert_counts(k, 0, 0, 2u * k + 2u, 0);
+        next(&radio);
+    }
+    assert_counts(8, 0, 0, 16, 0);
+    TEST_ASSERT_TRUE(fabsf(status.drift_ppm) < 20.0f);
+}
+
 static void an_odd_packet_that_is_repeated_is_no_other_sensor(void)
 {
     radio_t radio = radio_begin();
@@ -354,6 +379,19 @@ static void a_hub_whose_clock_goes_back_goes_on_from_there(void)
     assert_time(&radio, radio.sent - 1u, 5e-3);
 }
 
+/* A reading a second: each is a block of its own. */
+static void a_sensor_may_be_slow(void)
+{
+    radio_t radio = radio_begin();
+    radio.period_s = 1.0;
+    radio.drift_ppm = 250.0;
+    start(&radio);
+    run(&radio, 400.0);
+    assert_counts(0, 0, 0, 0, 0);
+    TEST_ASSERT_EQUAL_UINT32(0, status.steps);
+    assert_time(&radio, radio.sent - 1u, 0.02);
+}
+
 /* Any origin of time, the end of 64 bits too. */
 static void time_may_begin_anywhere(void)
 {
@@ -385,11 +423,13 @@ int main(void)
     RUN_TEST(packets_may_overlap);
     RUN_TEST(bursts_have_the_times_at_which_they_were_measured);
     RUN_TEST(one_packet_that_fits_nothing_costs_that_packet);
+    RUN_TEST(wild_times_cost_their_packets);
     RUN_TEST(an_odd_packet_that_is_repeated_is_no_other_sensor);
     RUN_TEST(times_increase_though_a_sensor_begins_anew);
     RUN_TEST(a_sensor_that_begins_anew_is_followed_anew);
     RUN_TEST(a_short_counter_that_begins_anew_is_followed_too);
     RUN_TEST(a_hub_whose_clock_goes_back_goes_on_from_there);
+    RUN_TEST(a_sensor_may_be_slow);
     RUN_TEST(time_may_begin_anywhere);
     return UNITY_END();
 }
