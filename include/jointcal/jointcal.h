@@ -18,6 +18,7 @@
 /// | a person's hip and knee | leg.h | leg_config.h |
 /// | joint angles from orientations | joint_angles.h, joint_heading.h | |
 /// | one sensor's orientation and features, once for all its joints | sensor.h, tick.h | |
+/// | packets of a wireless sensor as readings with times of the hub | packet.h | packet_config.h, chips.h |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
 ///
 /// What stands in private/ is state whose size must be known at compile time; nothing there is for the user to touch.
@@ -34,6 +35,7 @@
 #include "jointcal/center.h"
 #include "jointcal/center_window.h"
 #include "jointcal/chain.h"
+#include "jointcal/chips.h"
 #include "jointcal/config.h"
 #include "jointcal/functional.h"
 #include "jointcal/functional_pair.h"
@@ -46,6 +48,7 @@
 #include "jointcal/joint_heading.h"
 #include "jointcal/leg.h"
 #include "jointcal/orientation.h"
+#include "jointcal/packet.h"
 #include "jointcal/quat.h"
 #include "jointcal/sensor.h"
 #include "jointcal/status.h"

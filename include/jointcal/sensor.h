@@ -34,12 +34,6 @@
 extern "C" {
 #endif
 
-/// One reading and its time.
-typedef struct {
-    uint64_t t_us;  ///< Time in microseconds, any origin, strictly increasing.
-    jcal_imu_t imu;
-} jcal_reading_t;
-
 /// Largest component of a rate, rad/s, and of a specific force, m/s^2, that is taken in: beyond what any sensor for people can read.
 #define JCAL_SENSOR_GYR_MAX_RAD_S 200.0f
 #define JCAL_SENSOR_ACC_MAX_M_S2 4000.0f

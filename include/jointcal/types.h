@@ -48,6 +48,12 @@ typedef struct {
     jcal_vec3_t acc_m_s2;   ///< Specific force: at rest 9.81 upward.
 } jcal_imu_t;
 
+/// One reading and its time.
+typedef struct {
+    uint64_t t_us;  ///< Time in microseconds, any origin, strictly increasing.
+    jcal_imu_t imu;
+} jcal_reading_t;
+
 /// Simultaneous readings of the two IMUs of a joint: 1 on the proximal segment, 2 on the distal one.
 typedef struct {
     uint64_t t_us;  ///< Time in microseconds, any origin, strictly increasing.

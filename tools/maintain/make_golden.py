@@ -13,8 +13,9 @@ the stream form and of OLS20 from jointcal_tools.ols20 and from the formulas of
 docs/METHOD.md section 2, written out below; those of the 2-DoF joint from
 jointcal_tools.lai22 and lai22_angles, those of the joint centre from jointcal_tools.ols17,
 those of what ties hip and knee from weighted least squares, written out below, those
-of the functional joint from jointcal_tools.functional_reference, and those of ball joints
-and of axes from windows from jointcal_tools.ball_reference.
+of the functional joint from jointcal_tools.functional_reference, those of ball joints
+and of axes from windows from jointcal_tools.ball_reference, and those of packets from
+jointcal_tools.packet_reference.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ sys.path.insert(0, str(TOOLS / "python"))
 from jointcal_tools import ball_reference as ball  # noqa: E402
 from jointcal_tools import functional_reference as functional  # noqa: E402
 from jointcal_tools import functional_sensor, lai22, lai22_angles, ols17, ols20  # noqa: E402
+from jointcal_tools import packet_reference as packet  # noqa: E402
 from jointcal_tools import quaternions as quat  # noqa: E402
 from jointcal_tools.lai22_signals import Samples  # noqa: E402
 from jointcal_tools.recordings import Recording  # noqa: E402
@@ -51,6 +53,8 @@ BALL_S, BALL_EARLY, BALL_TRACKED = 18.0, 14, 20  # s; ticks of the early sums; t
 BALL_POINTS = (2, 3)  # with early and with all sums
 WINDOW_STEP, WINDOW_PARTS = 3, 6
 WINDOW_HEADING_BOUND, WINDOW_LEVER_BOUND = 0.15, 0.04
+PACKET_S, PACKET_AGAIN_S, PACKET_SLOWER_S, PACKET_SLOWER_US = 160.0, 60.0, 40.0, 200000
+PACKET_LOST, PACKET_LATE, PACKET_TWICE = 0.04, 0.02, 0.02  # shares of the packets
 CHAIN_STATES = 18
 CHAIN_OBSERVED = 3
 SAME_BIAS_M_S2 = 0.01  # by how much one accelerometer may differ from itself
@@ -826,8 +830,72 @@ def ball_header() -> str:
 """
 
 
+def packet_case(rng: np.random.Generator) -> tuple[packet.Config, list[packet.Packet]]:
+    """A sensor that is learnt, begins anew, and whose radio becomes slower; some packets lost, late or twice."""
+    radio = packet.Radio(period_s=0.05, drift_ppm=-430.0, count=8, bits=12, counter0=3000)
+    sent = packet.simulate(radio, PACKET_S, rng)
+    again = radio.__class__(**{**radio.__dict__, "counter0": 0, "hub0_us": sent[-1].arrival_us + 1234567})
+    sent += packet.simulate(again, PACKET_AGAIN_S, rng)
+    sent = [p if p.arrival_us < sent[-1].arrival_us - 1e6 * PACKET_SLOWER_S else p._replace(arrival_us=p.arrival_us + PACKET_SLOWER_US)
+            for p in sent]
+    came, held = [], None
+    for each in sent:
+        draw = rng.random()
+        if draw < PACKET_LOST:
+            continue
+        if held is None and draw < PACKET_LOST + PACKET_LATE:
+            held = each
+            continue
+        came += [each, each] if draw > 1.0 - PACKET_TWICE else [each]
+        if held is not None:
+            came.append(held._replace(arrival_us=each.arrival_us))
+            held = None
+    return packet.Config(period_s=radio.period_s, bits=radio.bits), came
+
+
+def packet_header() -> str:
+    config, came = packet_case(np.random.default_rng(SEED))
+    follower, found = packet.Follower(config), []
+    for each in came:
+        times = follower.take(each)
+        clock = follower.clock
+        ends = [times[0] - came[0].arrival_us, times[-1] - came[0].arrival_us] if times else [0.0, 0.0]
+        found.append([len(times), *ends, clock.drift_ppm, clock.bound_ppm, clock.jitter_us])
+    counts = follower.counts
+    assert all(counts.values())
+    arrivals = ",\n".join(f"    {{{each.arrival_us}u, {each.counter}u, {each.count}u}}" for each in came)
+    return f"""/* SPDX-License-Identifier: MIT */
+/// @file
+/// Golden vectors of packets in float64, generated: do not edit. Compared by unit/packet/test_golden.c.
+///
+/// Generator tools/maintain/make_golden.py, seed {SEED}, numpy {np.__version__}.
+#ifndef GOLDEN_PACKET_H
+#define GOLDEN_PACKET_H
+
+#include <stdint.h>
+
+/* clang-format off */
+#define GOLDEN_PACKETS {len(came)}
+#define GOLDEN_PERIOD_NS {round(1e9 * config.period_s)}u
+#define GOLDEN_BITS {config.bits}u
+
+/// Readings by what became of them: given out, lost, late, duplicate, odd; restarts, steps.
+static const uint32_t golden_counts[7] = {{{", ".join(f"{counts[name]}u" for name in counts)}}};
+
+/// Arrival, us; counter; readings.
+static const uint32_t golden_packets[{len(came)}][3] = {{
+{arrivals},
+}};
+
+""" + table("golden_found", "Readings given out; time of the first and of the last one since the first arrival, us; drift, bound, ppm; jitter, us.",
+            np.array(found)) + """/* clang-format on */
+
+#endif /* GOLDEN_PACKET_H */
+"""
+
+
 HEADERS = {"hinge.h": hinge_header, "two_dof.h": two_dof_header, "center.h": center_header, "chain.h": chain_header,
-           "functional.h": functional_header, "ball.h": ball_header}
+           "functional.h": functional_header, "ball.h": ball_header, "packet.h": packet_header}
 
 
 def differences(old: str, new: str) -> list[str]:

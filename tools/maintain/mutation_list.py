@@ -81,6 +81,12 @@ B_SOLVE = "lib/ball/solve.c"
 B_STREAM = "lib/ball/stream.c"
 B_SUMS = "lib/ball/sums.c"
 B_TRACK = "lib/ball/track.c"
+P_CHIPS = "lib/packet/chips.c"
+P_ENVELOPE = "lib/packet/envelope.c"
+P_ORDER = "lib/packet/order.c"
+P_PACE = "lib/packet/pace.c"
+P_PACKETS = "lib/packet/packets.c"
+P_QUEUE = "lib/packet/queue.h"
 X_PAIR = "lib/two_axes/pair.c"
 X_RESULT = "lib/two_axes/result.c"
 X_STREAM = "lib/two_axes/stream.c"
@@ -850,6 +856,45 @@ MUTATIONS = [
     (X_WINDOWS, "found->kept_sign = 0;", "", "the sign of an axis that was"),
     (X_WINDOWS, "is_better || found->in_doubt", "found->in_doubt", "a window that is surer"),
     (X_WINDOWS, "(jcal_vec3_dot(axis, found->axis) < 0.0f) ? jcal_vec3_scale(axis, -1.0f) : axis", "axis", "sense of an axis that grows"),
+    (P_CHIPS, "0.140f * JCAL_RAD_PER_DEG", "0.122f * JCAL_RAD_PER_DEG", "ST's step is no share of 2^15"),
+    (P_CHIPS, "17872, 20084", "32767, 32767", "rail of SH-2 reports"),
+    (P_CHIPS, "acc_range_g / chip->acc_g[0]", "chip->acc_g[0] / acc_range_g", "scale of a smaller range"),
+    (P_CHIPS, "(range > 0.0f) && ", "", "a range of zero"),
+    (P_ENVELOPE, "return left >= right;", "return left <= right;", "the lower hull"),
+    (P_ENVELOPE, "(view->x[corner[k]] < middle)", "(view->x[corner[k]] > middle)", "the edge in the middle"),
+    (P_ENVELOPE, "- (self->drift_ppm * view->x[k]);", ";", "slope beyond the drift that is known"),
+    (P_ENVELOPE, "- (self->drift_ppm * way_s);", ";", "drift in the height of a packet"),
+    (P_ENVELOPE, "- self->above_us - (", "- (", "the line's height at its anchor"),
+    (P_ENVELOPE, "before_ppm + (share * slope_ppm)", "before_ppm + slope_ppm", "how far a slope is believed"),
+    (P_ENVELOPE, "self->above_us = lowest_above(&view, self->count, turned_ppm);", "self->above_us = lowest_above(&view, self->count, 0.0f);", "the line after a turn"),
+    (P_ENVELOPE, "sum / (float)(count - 3u)", "sum / (float)count", "mean height of those that are not on the line"),
+    (P_ENVELOPE, "#define BOUND_SHARE 2.0f", "#define BOUND_SHARE 1.0f", "bound of the drift"),
+    (P_ENVELOPE, "is_lower(self, period_ns, b, a) ? *b : *a", "is_lower(self, period_ns, b, a) ? *a : *b", "the lower one of two blocks"),
+    (P_ENVELOPE, "self->width *= 2u;", "", "blocks that take twice as long"),
+    (P_ENVELOPE, "uint32_t old = is_long_since(self, us) ? self->count : 0u;", "uint32_t old = 0u;", "points of before a long silence"),
+    (P_ENVELOPE, "self->above_us += jcal_min(above_us, 0.0f);", "", "a packet below the line"),
+    (P_ENVELOPE, "#define HIGH_LASTS_US 5000000u", "#define HIGH_LASTS_US 500000u", "a burst is no slower radio"),
+    (P_ENVELOPE, "self->high_us = self->is_high ? self->high_us : us;", "self->high_us = us;", "since when packets are high"),
+    (P_ENVELOPE, "#define LOW_US 20000.0f", "#define LOW_US 200000.0f", "a radio that became faster"),
+    (P_ENVELOPE, "self->open_us = jcal_max(above_us, 0.0f);", "", "lowest of the open block"),
+    (P_ORDER, "#define ODD_RUN 3u", "#define ODD_RUN 2u", "odd packets that are believed"),
+    (P_ORDER, "periods -= (int32_t)", "periods += (int32_t)", "drift over a long silence"),
+    (P_ORDER, "head->counter + (head->count - 1u)", "head->counter", "number of the last reading"),
+    (P_ORDER, "(low ^ top) - top", "low", "a counter behind the clock"),
+    (P_ORDER, "self->seen |= bit;", "", "a late reading that comes twice"),
+    (P_ORDER, "self->seen << (lost + 1u)", "self->seen << 1u", "which readings came"),
+    (P_ORDER, "(readings <= 0) || ", "", "an odd packet that is repeated"),
+    (P_PACE, "#define PACE_MOST 0.01f", "#define PACE_MOST 0.1f", "how even times are"),
+    (P_PACE, "return -off_us;", "return 0.0f;", "a jump to a line that is far off"),
+    (P_PACE, "way_us - (PACE_LEAST * period_us)", "way_us", "times that wait still increase"),
+    (P_PACE, "self->ns = (uint32_t)(sum - (whole * NS_PER_US));", "self->ns = 0u;", "what is left of a microsecond"),
+    (P_PACE, "(self->has_last && ((int64_t)(us - self->us) <= 0))", "(false)", "a new line before the last time"),
+    (P_PACKETS, "(k < 3u) ? cfg->scale.gyr_rad_s", "(k < 2u) ? cfg->scale.gyr_rad_s", "scale of the components"),
+    (P_PACKETS, "head->arrival_us - ahead_us", "head->arrival_us", "time of the first reading of the first packet"),
+    (P_PACKETS, "self->pace.has_last && !jcal_order_went_back(", "self->pace.has_last && jcal_order_went_back(", "a hub whose clock goes back"),
+    (P_PACKETS, "self->counts.late += has ? 0u : 1u;", "", "late readings"),
+    (P_PACKETS, "(packet->count > self->cfg.per_packet)", "(packet->count > JCAL_PACKET_READINGS_MAX)", "a packet larger than its slot"),
+    (P_QUEUE, ">= self->cfg.packets", "> self->cfg.packets", "capacity"),
     (DECAY, "p = p * (2.0f - p);\n    return", "return", "doublings of the exponential"),
 ]
 
