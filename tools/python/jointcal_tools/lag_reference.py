@@ -45,6 +45,7 @@ HEADINGS, TRIAL_ROUNDS, ROUNDS = 4, 3, 2
 PASSES = 3  # parabolas
 STEP_NODES = 0.25  # distance of a parabola's points, nodes
 STEP_MAX_NODES = 0.5
+NEIGHBOUR_NODES = 1.5
 
 FLOOR_S, SHARE, READING_S, SHARE_FLOOR = 0.002, 1.3, 1.0, 0.002
 LACK_MAX, RIVAL_MIN, RIVAL_FLOOR, SPEED2_MIN = 0.2, 1.5, 0.01, 0.0016
@@ -95,7 +96,7 @@ class Lag:
         self.epochs, self.ticks, self.node_s, self.rate2 = (0, 0), 0, 0.1, 0.0
         self.past1: deque[np.ndarray] = deque(maxlen=SIDE + 1)
         self.past2: deque[np.ndarray] = deque(maxlen=NODES)
-        self.applied_s, self.known, self.known_bound_s = 0.0, False, UNKNOWN_S
+        self.applied_s, self.left_s, self.known, self.known_bound_s = 0.0, 0.0, False, UNKNOWN_S
         self.begin()
 
     def begin(self) -> None:
@@ -158,12 +159,10 @@ class Lag:
             self.round(point)
         return point
 
-    def search(self) -> tuple[Point, float]:
-        """The best node, and what the best one leaves that is no neighbour."""
-        best = [min((self.solved(float(k), 1j**q, TRIAL_ROUNDS) for q in range(HEADINGS)), key=lambda p: p.share)
+    def search(self) -> list[Point]:
+        """The best point at each node."""
+        return [min((self.solved(float(k), 1j**q, TRIAL_ROUNDS) for q in range(HEADINGS)), key=lambda p: p.share)
                 for k in range(-SIDE, SIDE + 1)]
-        first = min(best, key=lambda p: p.share)
-        return first, min(p.share for p in best if abs(p.lag - first.lag) > 1.5)
 
     def refine(self, point: Point) -> tuple[Point, float]:
         """The least J by parabolas, and its second derivative, as a share of both sides, per node^2."""
@@ -180,8 +179,9 @@ class Lag:
         s = self.sums
         if s.count < NODES:
             return
-        first, rival = self.search()
-        point, bend = self.refine(first)
+        nodes = self.search()
+        point, bend = self.refine(min(nodes, key=lambda p: p.share))
+        rival = min([p.share for p in nodes if abs(p.lag - point.lag) > NEIGHBOUR_NODES], default=1.0)
         before = self.lag_s
         self.share, self.rival = point.share, rival / max(point.share, RIVAL_FLOOR)
         self.speed2 = 0.5 * point.own / s.count
@@ -198,7 +198,8 @@ class Lag:
         self.agreed = (self.agreed + 1 if abs(self.lag_s - before) <= self.bound_s else 1) if fits else 0
         if not rough and s.motion_s >= MOTION_MIN_S:
             self.known = self.agreed >= AGREED_MIN
-            self.known_bound_s = self.bound_s
+            self.left_s = self.lag_s if self.known else 0.0
+            self.known_bound_s = self.bound_s if self.known else UNKNOWN_S
 
     def shift(self) -> float:
         """What is taken off from now on, s; 0: nothing."""
@@ -209,5 +210,6 @@ class Lag:
         off = self.lag_s if abs(self.lag_s) > (STAYS_S if rough else self.bound_s) else 0.0
         if rough or off != 0.0:
             self.applied_s += off
+            self.left_s = 0.0
             self.begin()
         return off
