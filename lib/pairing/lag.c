@@ -21,7 +21,7 @@
 /// Bound: a floor, s, and so many standard deviations. Motion that takes one independent reading of each of three components, s. Share
 /// that the filters of two sensors leave of themselves.
 #define FLOOR_S 0.002f
-#define DEVIATIONS 1.3f
+#define DEVIATIONS 1.1f
 #define READING_S 1.0f
 #define SHARE_FLOOR 0.002f
 
@@ -33,9 +33,10 @@
 /// Motion and bound, s, before the lag is roughly taken off and before it is known.
 #define MOTION_FIRST_S 2.0f
 #define MOTION_MIN_S 4.0f
-#define BOUND_FIRST_S 0.030f
+#define BOUND_FIRST_S 0.050f
 #define BOUND_MAX_S 0.010f
-/// Judgements in a row.
+/// Judgements in a row, the same.
+#define AGREED_FIRST 2u
 #define AGREED_MIN 3u
 #define AGREED_MOST 200u
 /// A rough lag below this is left where it is, s.
@@ -162,7 +163,7 @@ jcal_status_t jcal_lag_step(jcal_lag_t *self)
 
 float jcal_lag_take(jcal_lag_t *self)
 {
-    if ((self == NULL) || (self->verdict.agreed < AGREED_MIN)) {
+    if ((self == NULL) || (self->verdict.agreed < (is_rough(self) ? AGREED_FIRST : AGREED_MIN))) {
         return 0.0f;
     }
     const bool rough = is_rough(self);

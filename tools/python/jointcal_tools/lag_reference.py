@@ -47,11 +47,11 @@ STEP_NODES = 0.25  # distance of a parabola's points, nodes
 STEP_MAX_NODES = 0.5
 NEIGHBOUR_NODES = 1.5
 
-FLOOR_S, SHARE, READING_S, SHARE_FLOOR = 0.002, 1.3, 1.0, 0.002
+FLOOR_S, SHARE, READING_S, SHARE_FLOOR = 0.002, 1.1, 1.0, 0.002
 LACK_MAX, RIVAL_MIN, RIVAL_FLOOR, SPEED2_MIN = 0.2, 1.5, 0.01, 0.0016
 MOTION_FIRST_S, MOTION_MIN_S = 2.0, 4.0  # before the lag is taken off roughly, and before it is known
-BOUND_FIRST_S, BOUND_MAX_S = 0.030, 0.010
-AGREED_MIN = 3
+BOUND_FIRST_S, BOUND_MAX_S = 0.050, 0.010
+AGREED_FIRST, AGREED_MIN = 2, 3
 STAYS_S = 0.04  # a rough lag below this is left where it is
 UNKNOWN_S = 1.0
 
@@ -203,9 +203,9 @@ class Lag:
 
     def shift(self) -> float:
         """What is taken off from now on, s; 0: nothing."""
-        if self.agreed < AGREED_MIN:
-            return 0.0
         rough = self.stride > 1
+        if self.agreed < (AGREED_FIRST if rough else AGREED_MIN):
+            return 0.0
         self.stride = 1
         off = self.lag_s if abs(self.lag_s) > (STAYS_S if rough else self.bound_s) else 0.0
         if rough or off != 0.0:
