@@ -8,9 +8,10 @@
 extern "C" {
 #endif
 
-/// Readings of one sensor that may wait for those of the other one, in periods: 26 are 260 ms at the default period.
+/// Readings of one sensor that may wait for those of the other one, in periods: 32 are 320 ms at the default period. A lag that is taken off
+/// counts: the sensor whose times were early waits that much longer.
 #ifndef JCAL_PAIRING_WAITING
-#define JCAL_PAIRING_WAITING 26u
+#define JCAL_PAIRING_WAITING 32u
 #endif
 #if ((JCAL_PAIRING_WAITING) < 2) || ((JCAL_PAIRING_WAITING) > 1024)
 #error "JCAL_PAIRING_WAITING must be 2 to 1024"
