@@ -38,7 +38,8 @@ extern "C" {
 
 /// What is known of the lag.
 typedef struct {
-    bool lag_known;  ///< Three judgements in a row agree within 10 ms, and nothing else explains the motion as well.
+    /// Three judgements in a row agreed within 10 ms, nothing else explained the motion as well, and none since speaks against it.
+    bool lag_known;
     float lag_s;    ///< Sensor 2's times are late by it, what was taken off included; that alone while it is not known.
     float bound_s;  ///< 95 % bound of it; JCAL_LAG_UNKNOWN_S while it is not known.
     float taken_s;  ///< Part of lag_s that was taken off.

@@ -120,6 +120,26 @@ static bool fits(const jcal_lag_t *self)
            (fabsf(self->taken_s + verdict->lag_s) <= (RANGE_S + verdict->bound_s));
 }
 
+/// What is known stays so until something speaks against it: sums that began anew do not yet tell the lag, but do not deny it either.
+static void decide(jcal_lag_t *self)
+{
+    const jcal_lag_verdict_t *const verdict = &self->verdict;
+    const bool is_one_joint = (verdict->share <= SHARE_MAX) && (verdict->rival >= RIVAL_MIN);
+    const bool is_denied =
+        !is_one_joint || (fabsf(verdict->lag_s - self->left_s) > (verdict->bound_s + self->known_bound_s));
+    if (verdict->agreed >= AGREED_MIN) {
+        self->known = true;
+        self->left_s = verdict->lag_s;
+        self->known_bound_s = verdict->bound_s;
+    } else if (is_denied) {
+        self->known = false;
+        self->left_s = 0.0f;
+        self->known_bound_s = JCAL_LAG_UNKNOWN_S;
+    } else {
+        /* nothing new */
+    }
+}
+
 static void judge(jcal_lag_t *self)
 {
     const jcal_lag_point_t *const best = &self->search.best;
@@ -141,9 +161,7 @@ static void judge(jcal_lag_t *self)
         /* often enough */
     }
     if (!is_rough(self) && (self->sums.motion_s >= MOTION_MIN_S)) {
-        self->known = verdict->agreed >= AGREED_MIN;
-        self->left_s = self->known ? verdict->lag_s : 0.0f;
-        self->known_bound_s = self->known ? verdict->bound_s : JCAL_LAG_UNKNOWN_S;
+        decide(self);
     }
 }
 

@@ -197,9 +197,15 @@ class Lag:
                 and abs(self.applied_s + self.lag_s) <= RANGE_S + self.bound_s)
         self.agreed = (self.agreed + 1 if abs(self.lag_s - before) <= self.bound_s else 1) if fits else 0
         if not rough and s.motion_s >= MOTION_MIN_S:
-            self.known = self.agreed >= AGREED_MIN
-            self.left_s = self.lag_s if self.known else 0.0
-            self.known_bound_s = self.bound_s if self.known else UNKNOWN_S
+            self.decide()
+
+    def decide(self) -> None:
+        """What is known stays so until something speaks against it."""
+        denied = self.share > LACK_MAX or self.rival < RIVAL_MIN or abs(self.lag_s - self.left_s) > self.bound_s + self.known_bound_s
+        if self.agreed >= AGREED_MIN:
+            self.known, self.left_s, self.known_bound_s = True, self.lag_s, self.bound_s
+        elif denied:
+            self.known, self.left_s, self.known_bound_s = False, 0.0, UNKNOWN_S
 
     def shift(self) -> float:
         """What is taken off from now on, s; 0: nothing."""
