@@ -58,6 +58,7 @@ MEASUREMENTS = {
     "center_sim": "joint centre, simulated: coverage, sharpness, what must never be ready, table I of OLS17",
     "chain": "hip and knee: SAL15 simulated, ingredient by ingredient, a person's thigh",
     "sensor": "the stage of one sensor: beside VQF and optics, cold starts, bias",
+    "pairing": "the lag of two sensors: recordings and simulated joints told a lag, unrelated pairs",
     "cost": "time and memory, beside qmt",
 }
 MODULES = {"time": "time_to_ready", "lai22": "lai22_paper"}  # where the name differs

@@ -95,7 +95,7 @@ class Library(unittest.TestCase):
 
     def test_lags_of_both_signs_are_taken_off(self):
         for seed, true_s in ((1, 0.2345), (2, -0.18), (5, 0.07)):
-            rec = person(seed, seconds=40.0)
+            rec = person(seed, seconds=60.0)
             late = Stream(rec.t_s + true_s, values(rec, 2))
             found = native_pairing.run(Stream(rec.t_s, values(rec, 1)), late)
             self.assertTrue(found.known[-1], seed)

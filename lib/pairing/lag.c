@@ -26,13 +26,13 @@
 #define SHARE_FLOOR 0.002f
 
 /// What must hold: share that is left, how much more any other lag leaves, beside a floor, and the centre's squared velocity, (m/s)^2.
-#define SHARE_MAX 0.2f
-#define RIVAL_MIN 1.5f
+#define SHARE_MAX 0.1f
+#define RIVAL_MIN 2.5f
 #define RIVAL_FLOOR 0.01f
 #define SPEED2_MIN 1.6e-3f
 /// Motion and bound, s, before the lag is roughly taken off and before it is known.
 #define MOTION_FIRST_S 2.0f
-#define MOTION_MIN_S 4.0f
+#define MOTION_MIN_S 6.0f
 #define BOUND_FIRST_S 0.050f
 #define BOUND_MAX_S 0.010f
 /// Judgements in a row, the same.

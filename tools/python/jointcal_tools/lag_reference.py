@@ -48,8 +48,8 @@ STEP_MAX_NODES = 0.5
 NEIGHBOUR_NODES = 1.5
 
 FLOOR_S, SHARE, READING_S, SHARE_FLOOR = 0.002, 1.1, 1.0, 0.002
-LACK_MAX, RIVAL_MIN, RIVAL_FLOOR, SPEED2_MIN = 0.2, 1.5, 0.01, 0.0016
-MOTION_FIRST_S, MOTION_MIN_S = 2.0, 4.0  # before the lag is taken off roughly, and before it is known
+LACK_MAX, RIVAL_MIN, RIVAL_FLOOR, SPEED2_MIN = 0.1, 2.5, 0.01, 0.0016
+MOTION_FIRST_S, MOTION_MIN_S = 2.0, 6.0  # before the lag is taken off roughly, and before it is known
 BOUND_FIRST_S, BOUND_MAX_S = 0.050, 0.010
 AGREED_FIRST, AGREED_MIN = 2, 3
 STAYS_S = 0.04  # a rough lag below this is left where it is
