@@ -19,6 +19,8 @@
 /// | joint angles from orientations | joint_angles.h, joint_heading.h | |
 /// | one sensor's orientation and features, once for all its joints | sensor.h, tick.h | |
 /// | packets of a wireless sensor as readings with times of the hub | packet.h | packet_config.h, chips.h |
+/// | pairs of readings at common times, of two wireless sensors | pairing.h | pairing_config.h |
+/// | by how much two sensors of one joint are out of step | lag.h | |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
 ///
 /// What stands in private/ is state whose size must be known at compile time; nothing there is for the user to touch.
@@ -46,9 +48,11 @@
 #include "jointcal/hinge_window.h"
 #include "jointcal/joint_angles.h"
 #include "jointcal/joint_heading.h"
+#include "jointcal/lag.h"
 #include "jointcal/leg.h"
 #include "jointcal/orientation.h"
 #include "jointcal/packet.h"
+#include "jointcal/pairing.h"
 #include "jointcal/quat.h"
 #include "jointcal/sensor.h"
 #include "jointcal/status.h"

@@ -1,0 +1,316 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// Tests of jointcal/lag.h: sums against double precision, and the lag of made-up joints, which has no noise.
+#include "jointcal/lag.h"
+
+#include "pairing/lag_search.h"
+#include "pairing/lag_sums.h"
+#include "unit/ball/fixture.h"
+
+#include <string.h>
+
+/* 200 roundings of 6e-8, all to one side, of sums of squares. */
+static const double SUM_TOL = 200.0 * 6e-8;
+
+enum { N = JCAL_LAG_NODES, SIDE = JCAL_LAG_SIDE };
+
+static jcal_lag_t lag;
+static uint32_t next;
+
+void setUp(void)
+{
+    next = 1u;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_init(&lag));
+}
+
+void tearDown(void)
+{
+}
+
+/* Sensor 2 of `two` says too late by late_s. */
+static void add_pair(const hinge_t *one, const hinge_t *two, double late_s)
+{
+    const double t = 0.05 * (double)next;
+    const uint64_t t_us = (uint64_t)next * TICK_US;
+    const jcal_tick_t tick1 = hinge_tick(one, t, 1, t_us);
+    const jcal_tick_t tick2 = hinge_tick(two, t - late_s, 2, t_us);
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_add(&lag, &tick1, &tick2));
+    ++next;
+}
+
+static void judge_once(void)
+{
+    for (unsigned k = 0u; k < JCAL_LAG_SEARCH_SLICES; ++k) {
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_step(&lag));
+    }
+}
+
+static jcal_lag_result_t result(void)
+{
+    jcal_lag_result_t out;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_get(&lag, &out));
+    return out;
+}
+
+/* Seconds of ticks, five slices of work for each, and the lag taken off where it is to be; returns what was taken off. */
+static double run(const hinge_t *one, const hinge_t *two, double late_s, double seconds)
+{
+    double taken = 0.0;
+    for (int k = 0; k < (int)(20.0 * seconds); ++k) {
+        add_pair(one, two, late_s - taken);
+        for (int i = 0; i < 5; ++i) {
+            TEST_ASSERT_TRUE(jcal_lag_step(&lag) >= JCAL_OK);
+        }
+        taken += (double)jcal_lag_take(&lag);
+    }
+    return taken;
+}
+
+/* [U B] of a tick in double precision, row by row. */
+static void rows_of(const jcal_tick_t *tick, double f[3][4])
+{
+    const float u[3] = {tick->velocity.x, tick->velocity.y, tick->velocity.z};
+    for (int i = 0; i < 3; ++i) {
+        f[i][0] = (double)u[i];
+        for (int k = 0; k < 3; ++k) {
+            f[i][k + 1] = (double)tick->lever[3 * i + k];
+        }
+    }
+}
+
+enum { TICKS = 60, TAKEN = TICKS / 2, TERMS = TAKEN - 2 * SIDE };
+
+static double f1[TAKEN][3][4];
+static double f2[TAKEN][3][4];
+
+static double dot3(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* What element (i, k) of each sum of a node must be, and how large what was added. */
+typedef struct {
+    double own2, up, re, im, size;
+} element_t;
+
+static element_t element_of(int node, int i, int k)
+{
+    element_t out = {0.0, 0.0, 0.0, 0.0, 0.0};
+    for (int t = SIDE; t < TAKEN - SIDE; ++t) {
+        const int late = t + node - SIDE;
+        const double a[3] = {f1[t][0][i], f1[t][1][i], f1[t][2][i]};
+        const double b[3] = {f2[late][0][k], f2[late][1][k], f2[late][2][k]};
+        const double c[3] = {f2[late][0][i], f2[late][1][i], f2[late][2][i]};
+        out.own2 += dot3(c, b);
+        out.up += a[2] * b[2];
+        out.re += a[0] * b[0] + a[1] * b[1];
+        out.im += a[0] * b[1] - a[1] * b[0];
+        out.size += dot3(a, a) + dot3(b, b) + dot3(c, c);
+    }
+    return out;
+}
+
+static void node_is_right(int node)
+{
+    const jcal_lag_node_t *const found = &lag.sums.node[node];
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k < 4; ++k) {
+            const element_t e = element_of(node, i, k);
+            const double tolerance = SUM_TOL * e.size;
+            if (k <= i) {
+                TEST_ASSERT_DOUBLE_WITHIN(tolerance, e.own2, (double)found->own2[i * (i + 1) / 2 + k]);
+            }
+            TEST_ASSERT_DOUBLE_WITHIN(tolerance, e.up, (double)found->up[4 * i + k]);
+            TEST_ASSERT_DOUBLE_WITHIN(tolerance, e.re, (double)found->across.re[4 * i + k]);
+            TEST_ASSERT_DOUBLE_WITHIN(tolerance, e.im, (double)found->across.im[4 * i + k]);
+        }
+    }
+}
+
+/* Every second tick at first: node k has F_1(t) beside F_2(t + lag), for the same t at all nodes. */
+static void sums_are_those_of_double_precision(void)
+{
+    const hinge_t arm = arm_usual();
+    for (uint32_t k = 1u; k <= TICKS; ++k) {
+        const jcal_tick_t tick1 = hinge_tick(&arm, 0.05 * k, 1, 0u);
+        const jcal_tick_t tick2 = hinge_tick(&arm, 0.05 * k, 2, 0u);
+        if (k % 2u == 0u) {
+            rows_of(&tick1, f1[k / 2u - 1u]);
+            rows_of(&tick2, f2[k / 2u - 1u]);
+        }
+        add_pair(&arm, &arm, 0.0);
+    }
+    TEST_ASSERT_EQUAL_FLOAT((float)TERMS, lag.sums.count);
+    for (int node = 0; node < N; ++node) {
+        node_is_right(node);
+    }
+}
+
+/* A polynomial of degree 6 in the lag is met exactly between nodes. */
+static void between_nodes_is_a_polynomial(void)
+{
+    static jcal_lag_sums_t sums;
+    memset(&sums, 0, sizeof sums);
+    for (int node = 0; node < N; ++node) {
+        const double x = node - SIDE;
+        sums.node[node].up[5] = (float)(1.0 + x - 0.5 * x * x + 0.02 * pow(x, 5.0) - 0.01 * pow(x, 6.0));
+        sums.node[node].own2[9] = (float)x;
+        sums.node[node].across.im[15] = 2.0f;
+    }
+    for (int k = -12; k <= 12; ++k) {
+        const double x = 0.25 * k;
+        jcal_lever_sums_t at;
+        jcal_lag_sums_at(&sums, (float)x, &at);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-5, 1.0 + x - 0.5 * x * x + 0.02 * pow(x, 5.0) - 0.01 * pow(x, 6.0),
+                                  (double)at.up[5]);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-5, x, (double)at.own2[9]);
+        TEST_ASSERT_DOUBLE_WITHIN(2e-5, 2.0, (double)at.block[0].im[15]);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, at.block[1].re[0]);
+    }
+}
+
+static void lags_of_both_signs_are_found_and_taken_off(void)
+{
+    static const double late[] = {0.0, 0.0123, -0.037, 0.09, -0.12, 0.2, -0.244};
+    const hinge_t arm = arm_usual();
+    for (size_t k = 0u; k < sizeof late / sizeof late[0]; ++k) {
+        setUp();
+        const double taken = run(&arm, &arm, late[k], 25.0);
+        const jcal_lag_result_t out = result();
+        TEST_ASSERT_TRUE(out.lag_known);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, taken, (double)out.taken_s);
+        TEST_ASSERT_DOUBLE_WITHIN(0.001, late[k], (double)out.lag_s); /* no noise: what is left is the polynomial's */
+        TEST_ASSERT_TRUE(out.bound_s >= 0.002f);
+        TEST_ASSERT_TRUE(out.bound_s <= 0.010f);
+        TEST_ASSERT_TRUE(fabs(late[k] - taken) <= 0.04);
+    }
+}
+
+static void mounts_and_levers_do_not_matter(void)
+{
+    int known = 0;
+    for (int number = 0; number < 6; ++number) {
+        const hinge_t arm = some_arm(number);
+        setUp();
+        (void)run(&arm, &arm, 0.08, 30.0);
+        const jcal_lag_result_t out = result();
+        TEST_ASSERT_TRUE(!out.lag_known || (fabsf(out.lag_s - 0.08f) <= out.bound_s));
+        known += out.lag_known ? 1 : 0;
+    }
+    TEST_ASSERT_TRUE(known >= 5);
+}
+
+/* The sensors of two arms that move otherwise share no joint. */
+static void sensors_of_two_joints_have_no_lag(void)
+{
+    for (int number = 0; number < 8; ++number) {
+        const hinge_t one = some_arm(number);
+        const hinge_t two = some_arm(number + 20);
+        setUp();
+        for (int k = 0; k < 800; ++k) {
+            add_pair(&one, &two, 3.0);
+            for (int i = 0; i < 5; ++i) {
+                (void)jcal_lag_step(&lag);
+            }
+            (void)jcal_lag_take(&lag);
+            TEST_ASSERT_FALSE(result().lag_known);
+        }
+        TEST_ASSERT_EQUAL_FLOAT(JCAL_LAG_UNKNOWN_S, result().bound_s);
+    }
+}
+
+static void nothing_is_known_without_motion(void)
+{
+    hinge_t arm = arm_usual();
+    arm.rest_s = 1e6;
+    (void)run(&arm, &arm, 0.05, 20.0);
+    TEST_ASSERT_FALSE(result().lag_known);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, result().lag_s);
+}
+
+/* Products of features of before and after a gap would be of no time. */
+static void a_gap_empties_what_is_kept_but_not_the_sums(void)
+{
+    const hinge_t arm = arm_usual();
+    for (int k = 0; k < 40; ++k) {
+        add_pair(&arm, &arm, 0.0);
+    }
+    const float count = lag.sums.count;
+    for (int k = 0; k < 2 * (N - 1); ++k) {
+        jcal_tick_t tick1 = hinge_tick(&arm, 0.05 * next, 1, (uint64_t)next * TICK_US);
+        jcal_tick_t tick2 = hinge_tick(&arm, 0.05 * next, 2, (uint64_t)next * TICK_US);
+        tick1.epoch = tick2.epoch = 2u;
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_add(&lag, &tick1, &tick2));
+        TEST_ASSERT_EQUAL_FLOAT(count, lag.sums.count);
+        ++next;
+    }
+}
+
+static void old_motion_fades(void)
+{
+    const hinge_t arm = arm_usual();
+    for (int k = 0; k < 1600; ++k) {
+        add_pair(&arm, &arm, 0.0);
+        TEST_ASSERT_TRUE(lag.sums.motion_s < 30.2f);
+    }
+    TEST_ASSERT_TRUE(lag.sums.motion_s > 14.0f);
+}
+
+static void wrong_calls_are_refused(void)
+{
+    const hinge_t arm = arm_usual();
+    static jcal_lag_t zeros;
+    jcal_lag_result_t out;
+    const jcal_tick_t tick1 = hinge_tick(&arm, 1.0, 1, 1000u);
+    jcal_tick_t tick2 = hinge_tick(&arm, 1.0, 2, 1000u);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_init(NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_add(NULL, &tick1, &tick2));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_add(&lag, NULL, &tick2));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_add(&lag, &tick1, NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_add(&zeros, &tick1, &tick2));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_step(NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_step(&zeros));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_get(NULL, &out));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_get(&lag, NULL));
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_get(&zeros, &out));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_lag_take(NULL));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_lag_take(&lag));
+    TEST_ASSERT_EQUAL_INT(JCAL_IDLE, jcal_lag_step(&lag));
+    tick2.t_us = 1001u;
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_lag_add(&lag, &tick1, &tick2));
+    tick2.t_us = 1000u;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_add(&lag, &tick1, &tick2));
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_lag_add(&lag, &tick1, &tick2));
+}
+
+/* In slices and one after the other it is the same. */
+static void a_judgement_begins_anew_each_time(void)
+{
+    const hinge_t arm = arm_usual();
+    for (int k = 0; k < 200; ++k) {
+        add_pair(&arm, &arm, 0.03);
+    }
+    judge_once();
+    const jcal_lag_verdict_t first = lag.verdict;
+    judge_once();
+    TEST_ASSERT_EQUAL_FLOAT(first.lag_s, lag.verdict.lag_s);
+    TEST_ASSERT_EQUAL_FLOAT(first.share, lag.verdict.share);
+    TEST_ASSERT_EQUAL_FLOAT(first.bound_s, lag.verdict.bound_s);
+    TEST_ASSERT_FLOAT_WITHIN(0.004f, 0.03f, first.lag_s);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(sums_are_those_of_double_precision);
+    RUN_TEST(between_nodes_is_a_polynomial);
+    RUN_TEST(lags_of_both_signs_are_found_and_taken_off);
+    RUN_TEST(mounts_and_levers_do_not_matter);
+    RUN_TEST(sensors_of_two_joints_have_no_lag);
+    RUN_TEST(nothing_is_known_without_motion);
+    RUN_TEST(a_gap_empties_what_is_kept_but_not_the_sums);
+    RUN_TEST(old_motion_fades);
+    RUN_TEST(wrong_calls_are_refused);
+    RUN_TEST(a_judgement_begins_anew_each_time);
+    return UNITY_END();
+}
