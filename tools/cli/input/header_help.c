@@ -316,7 +316,7 @@ static bool later_header(csv_t *csv, const header_names_t *names, bool note, cha
     }
     if (count_known(csv, names) < 3) {
         describe(text, has);
-        add(text, "; columns must be called t_s, gyr1_x ... acc2_z, both sensors in one file");
+        add(text, "; columns must be called %s, %s", names->columns, names->where);
     }
     return true;
 }
@@ -327,7 +327,8 @@ bool header_help(csv_t *csv, const header_names_t *names, char text[static HEADE
     text[0] = '\0';
     const bool note = strncasecmp(csv->cells[0].text, "sep=", 4) == 0;
     if (all_numbers(csv)) {
-        add(text, "no header line: the first line has numbers only; it must name the columns t_s, gyr1_x ... acc2_z");
+        add(text, "no header line: the first line has numbers only; it must name the columns %s",
+            names->columns);
         return true;
     }
     const char *separator = note ? NULL : separator_words(csv);

@@ -21,6 +21,21 @@ static const char *const COLUMN_NAMES[ALL_COLUMNS] = {
     "acc2_y", "acc2_z", "q1_w",   "q1_x",   "q1_y",   "q1_z",   "q2_w",   "q2_x",   "q2_y",   "q2_z",   "gyr3_x",
     "gyr3_y", "gyr3_z", "acc3_x", "acc3_y", "acc3_z", "q3_w",   "q3_x",   "q3_y",   "q3_z"};
 
+/* Of a file that has one sensor. */
+static const char *const ONE_NAMES[RECORDING_ONE_COLUMNS] = {"t_s",   "gyr_x", "gyr_y", "gyr_z",
+                                                             "acc_x", "acc_y", "acc_z"};
+
+static const char *const *names_of(const recording_t *recording)
+{
+    return (recording->one != 0) ? ONE_NAMES : COLUMN_NAMES;
+}
+
+/* Columns that must be there, which stand first. */
+static size_t needed(const recording_t *recording)
+{
+    return (recording->one != 0) ? RECORDING_ONE_COLUMNS : RECORDING_COLUMNS;
+}
+
 __attribute__((format(printf, 4, 5))) static recording_event_t bad(recording_t *recording, uint64_t line,
                                                                    uint64_t column, const char *format, ...)
 {
@@ -55,13 +70,32 @@ static const char *shown(const char *text, char buffer[static 32])
 }
 
 /* Number of our column that is called so, or ALL_COLUMNS. */
-static size_t column_named(const char *name)
+static size_t column_named(const recording_t *recording, const char *name)
 {
+    const size_t count = (recording->one != 0) ? RECORDING_ONE_COLUMNS : ALL_COLUMNS;
     size_t k = 0;
-    while (k < ALL_COLUMNS && strcmp(name, COLUMN_NAMES[k]) != 0) {
+    while (k < count && strcmp(name, names_of(recording)[k]) != 0) {
         k++;
     }
-    return k;
+    return (k < count) ? k : ALL_COLUMNS;
+}
+
+static const char ONE_SENSOR[] =
+    "the columns of one sensor: the file of the other sensor is missing, or gyr1_x ... acc2_z of both in this one";
+static const char TWO_SENSORS[] =
+    "the columns of two sensors: of two files each has one, in the columns t_s, gyr_x ... acc_z";
+
+/* The header has all of these. */
+static bool has_all(const recording_t *recording, const char *const *names, size_t count)
+{
+    const csv_t *csv = &recording->csv;
+    size_t found = 0;
+    for (size_t k = 0; k < csv->cell_count; k++) {
+        for (size_t j = 0; j < count; j++) {
+            found += (strcmp(csv->cells[k].text, names[j]) == 0) ? 1u : 0u;
+        }
+    }
+    return found >= count;
 }
 
 /* Names every column that is missing, of those from `first` to before `end`. */
@@ -74,7 +108,7 @@ static recording_event_t check_missing(recording_t *recording, size_t first_colu
         if (!recording->found[k]) {
             /* All names together are shorter than the buffer. */
             length += (size_t)snprintf(names + length, sizeof names - length, "%s%s", (count == 0) ? "" : ", ",
-                                       COLUMN_NAMES[k]);
+                                       names_of(recording)[k]);
             count++;
         }
     }
@@ -82,7 +116,14 @@ static recording_event_t check_missing(recording_t *recording, size_t first_colu
         return RECORDING_ROW;
     }
     const uint64_t line = recording->csv.cells[0].line;
-    const header_names_t ours = {COLUMN_NAMES, ALL_COLUMNS, recording->found, end};
+    const bool one = recording->one != 0;
+    if (first_column == 0 && has_all(recording, one ? COLUMN_NAMES : ONE_NAMES,
+                                     one ? RECORDING_COLUMNS : RECORDING_ONE_COLUMNS)) {
+        return bad(recording, line, 0, "%s", one ? TWO_SENSORS : ONE_SENSOR);
+    }
+    const header_names_t ours = {names_of(recording), one ? RECORDING_ONE_COLUMNS : ALL_COLUMNS, recording->found, end,
+                                 one ? "t_s, gyr_x ... acc_z" : "t_s, gyr1_x ... acc2_z",
+                                 one ? "one sensor in each file" : "both sensors in one file"};
     char help[HEADER_HELP_MAX];
     if (header_help(&recording->csv, &ours, help)) {
         return bad(recording, line, 0, "%s", help);
@@ -113,7 +154,7 @@ static recording_event_t read_header(recording_t *recording)
     recording->header_line = recording->csv.cells[0].line;
     for (size_t k = 0; k < recording->header_cells; k++) {
         const csv_cell_t *cell = &recording->csv.cells[k];
-        const size_t column = column_named(cell->text);
+        const size_t column = column_named(recording, cell->text);
         if (column == ALL_COLUMNS) {
             continue;
         }
@@ -123,8 +164,8 @@ static recording_event_t read_header(recording_t *recording)
         found[column] = true;
         recording->index[column] = k;
     }
-    recording->has_orientations = all_found(recording, RECORDING_COLUMNS, FIRST_THIRD);
-    return check_missing(recording, 0, RECORDING_COLUMNS);
+    recording->has_orientations = recording->one == 0 && all_found(recording, RECORDING_COLUMNS, FIRST_THIRD);
+    return check_missing(recording, 0, needed(recording));
 }
 
 bool recording_has_third(const recording_t *recording)
@@ -162,7 +203,7 @@ static recording_event_t check_length(recording_t *recording)
 /* No cell of our columns begins like a number. */
 static bool all_text(const recording_t *recording)
 {
-    for (size_t k = 0; k < RECORDING_COLUMNS; k++) {
+    for (size_t k = 0; k < needed(recording); k++) {
         const char *text = recording->csv.cells[recording->index[k]].text;
         if (text[0] == '\0' || strchr("+-.0123456789", text[0]) != NULL) {
             return false;
@@ -174,14 +215,14 @@ static bool all_text(const recording_t *recording)
 static recording_event_t not_a_number(recording_t *recording, size_t column)
 {
     const csv_cell_t *cell = &recording->csv.cells[recording->index[column]];
-    if (column_named(cell->text) != ALL_COLUMNS) {
+    if (column_named(recording, cell->text) != ALL_COLUMNS) {
         return bad(recording, cell->line, 0, "a second header line");
     }
     char buffer[32];
     if (recording->csv.cells[0].line <= recording->header_line + 1 && all_text(recording)) {
         return bad(recording, cell->line, 0, "a line of units or of names below the header: take it out");
     }
-    return bad(recording, cell->line, cell->column, "%s: '%s' is not a number%s", COLUMN_NAMES[column],
+    return bad(recording, cell->line, cell->column, "%s: '%s' is not a number%s", names_of(recording)[column],
                shown(cell->text, buffer), number_help(cell->text, column == 0));
 }
 
@@ -190,6 +231,21 @@ recording_event_t recording_open(recording_t *recording, csv_read_t *read, void 
     memset(recording, 0, sizeof *recording);
     csv_open(&recording->csv, read, context);
     return read_header(recording);
+}
+
+recording_event_t recording_open_one(recording_t *recording, csv_read_t *read, void *context, int which)
+{
+    memset(recording, 0, sizeof *recording);
+    recording->one = which;
+    csv_open(&recording->csv, read, context);
+    return read_header(recording);
+}
+
+void recording_open_source(recording_t *recording, recording_source_t *source, void *context)
+{
+    memset(recording, 0, sizeof *recording);
+    recording->source = source;
+    recording->source_context = context;
 }
 
 /* Names the columns of one sensor's orientation that are missing, at the leftmost one that is there. */
@@ -242,8 +298,8 @@ recording_event_t recording_refuse(recording_t *recording, const char *format, .
 /* Columns that nobody asked for may hold anything. */
 static bool is_wanted(const recording_t *recording, size_t column)
 {
-    if (column < RECORDING_COLUMNS) {
-        return true;
+    if (column < needed(recording) || recording->one != 0) {
+        return column < needed(recording);
     }
     if (column < FIRST_THIRD) {
         return recording->want_orientations;
@@ -260,8 +316,9 @@ void recording_watch(check_t *check, const recording_row_t *row, bool third)
     check_push(check, &shown_row);
 }
 
-static recording_event_t read_row(recording_t *recording, recording_row_t *row)
+static recording_event_t read_row(void *self, recording_row_t *row)
 {
+    recording_t *recording = self;
     const csv_event_t event = csv_next(&recording->csv);
     if (event == CSV_END) {
         return RECORDING_END;
@@ -304,71 +361,32 @@ void recording_want_sorted(recording_t *recording)
     recording->want_sorted = true;
 }
 
-static bool keep(recording_t *recording, const recording_row_t *row)
-{
-    if (recording->kept_count == recording->kept_capacity) {
-        const size_t capacity = (recording->kept_capacity == 0) ? 1024 : 2 * recording->kept_capacity;
-        recording_kept_t *kept = realloc(recording->kept, capacity * sizeof *kept);
-        if (kept == NULL) {
-            return false;
-        }
-        recording->kept = kept;
-        recording->kept_capacity = capacity;
-    }
-    recording->kept[recording->kept_count] = (recording_kept_t){*row, recording->kept_count};
-    recording->kept_count++;
-    return true;
-}
-
-/* By time, rows of one time as they came, rows without one at the end. */
-static int compare(const void *a, const void *b)
-{
-    const recording_kept_t *x = a;
-    const recording_kept_t *y = b;
-    const bool timed = x->row.has_time && y->row.has_time;
-    if (timed && x->row.t_us != y->row.t_us) {
-        return (x->row.t_us > y->row.t_us) ? 1 : -1;
-    }
-    if (!timed && x->row.has_time != y->row.has_time) {
-        return x->row.has_time ? -1 : 1;
-    }
-    return (x->number > y->number) - (x->number < y->number);
-}
-
-/* Reads all rows and sorts them. */
-static void keep_all(recording_t *recording)
-{
-    recording_row_t row;
-    recording_event_t event = read_row(recording, &row);
-    while (event == RECORDING_ROW) {
-        event = keep(recording, &row) ? read_row(recording, &row) : RECORDING_FAILED;
-    }
-    recording->kept_event = event;
-    if (recording->kept_count > 0) {
-        qsort(recording->kept, recording->kept_count, sizeof *recording->kept, compare);
-    }
-}
-
 static recording_event_t next_row(recording_t *recording, recording_row_t *row)
 {
-    if (!recording->want_sorted) {
-        return read_row(recording, row);
+    if (recording->source != NULL) {
+        return recording->source(recording->source_context, row);
     }
-    if (recording->kept_at == 0 && recording->kept_event == RECORDING_ROW) {
-        keep_all(recording);
-    }
-    if (recording->kept_event != RECORDING_END || recording->kept_at == recording->kept_count) {
-        return recording->kept_event;
-    }
-    *row = recording->kept[recording->kept_at++].row;
-    return RECORDING_ROW;
+    return recording->want_sorted ? kept_rows_next(&recording->kept, read_row, recording, row)
+                                  : read_row(recording, row);
+}
+
+static void watch_one(recording_t *recording, const recording_row_t *row)
+{
+    const bool first = recording->one == 1;
+    const check_row_t shown_row = {.t_s = row->t_s,
+                                   .has_time = row->has_time,
+                                   .t_us = row->t_us,
+                                   .imu = {first ? &row->imu1 : NULL, first ? NULL : &row->imu1, NULL}};
+    check_push(&recording->check, &shown_row);
 }
 
 recording_event_t recording_next(recording_t *recording, recording_row_t *row)
 {
     const recording_event_t event = next_row(recording, row);
-    if (event == RECORDING_ROW) {
+    if (event == RECORDING_ROW && recording->one == 0) {
         recording_watch(&recording->check, row, recording->want_third);
+    } else if (event == RECORDING_ROW) {
+        watch_one(recording, row);
     }
     return event;
 }
@@ -376,6 +394,5 @@ recording_event_t recording_next(recording_t *recording, recording_row_t *row)
 void recording_close(recording_t *recording)
 {
     csv_close(&recording->csv);
-    free(recording->kept);
-    recording->kept = NULL;
+    kept_rows_free(&recording->kept);
 }

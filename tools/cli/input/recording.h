@@ -6,22 +6,18 @@
 
 #include "input/check.h"
 #include "input/csv.h"
-#include "jointcal/types.h"
+#include "input/kept_rows.h"
+#include "input/row.h"
 
 /// t_s and twelve sensor components.
 #define RECORDING_COLUMNS 13
+/// t_s and the six components of a file that has one sensor.
+#define RECORDING_ONE_COLUMNS 7
 /// Two quaternions, which need not be there.
 #define RECORDING_ORIENTATION_COLUMNS 8
 /// A third sensor, for those who ask for it, and its quaternion.
 #define RECORDING_THIRD_COLUMNS 6
 #define RECORDING_ALL_COLUMNS (RECORDING_COLUMNS + RECORDING_ORIENTATION_COLUMNS + RECORDING_THIRD_COLUMNS + 4)
-
-typedef enum {
-    RECORDING_ROW,    ///< A row was read.
-    RECORDING_END,    ///< There are no more rows.
-    RECORDING_BAD,    ///< The file is no recording: see fault.
-    RECORDING_FAILED  ///< It could not be read to the end, or memory ran out.
-} recording_event_t;
 
 /// What is wrong and where; line and column count from 1, and 0 means that there is none to name.
 typedef struct {
@@ -30,24 +26,8 @@ typedef struct {
     char text[1024];
 } recording_fault_t;
 
-/// One row. Empty cells are NaN; cells that are not finite, or too large for a float, are NaN or infinite.
-typedef struct {
-    bool has_time;  ///< False if the time is empty or not finite.
-    int64_t t_us;   ///< As in the file, from whatever origin.
-    double t_s;     ///< The same in double, without limits; NaN if the time is empty or not finite.
-    jcal_imu_t imu1;
-    jcal_imu_t imu2;
-    jcal_imu_t imu3;  ///< All zero unless wanted.
-    jcal_quat_t q1;   ///< Sensor to earth; all zero unless wanted.
-    jcal_quat_t q2;
-    jcal_quat_t q3;  ///< Zero unless the third sensor is wanted too.
-} recording_row_t;
-
-/// Rows that wait to be handed out in order. Private.
-typedef struct {
-    recording_row_t row;
-    size_t number;
-} recording_kept_t;
+/// Reads a row from somewhere else than a file of all sensors, as recording_next.
+typedef kept_rows_read_t recording_source_t;
 
 typedef struct {
     csv_t csv;
@@ -59,17 +39,23 @@ typedef struct {
     check_t check;           ///< Watches the rows.
     bool want_third;         /* set by recording_want_third */
     bool want_sorted;        /* set by recording_want_sorted */
-    recording_kept_t *kept;  /* rows in order, and the event after the last one */
-    size_t kept_count;
-    size_t kept_capacity;
-    size_t kept_at;
-    recording_event_t kept_event;
+    kept_rows_t kept;        /* with want_sorted */
+    int one;                 /* of a file with one sensor: whose it is, 1 or 2; else 0 */
+    recording_source_t *source; /* of rows that no file of all sensors has; or null */
+    void *source_context;
     bool found[RECORDING_ALL_COLUMNS];
     size_t index[RECORDING_ALL_COLUMNS]; /* cell of each column we want */
 } recording_t;
 
 /// Reads the header. RECORDING_ROW if all columns are there, else RECORDING_BAD or RECORDING_FAILED.
 recording_event_t recording_open(recording_t *recording, csv_read_t *read, void *context);
+
+/// The same of a file that has one sensor, in the columns t_s, gyr_x ... acc_z; its readings are imu1 of each row. For its checks it is
+/// sensor `which`, 1 or 2.
+recording_event_t recording_open_one(recording_t *recording, csv_read_t *read, void *context, int which);
+
+/// A recording whose rows come from `source`: two sensors without orientations. Sorting is the source's.
+void recording_open_source(recording_t *recording, recording_source_t *source, void *context);
 
 /// Asks for rows in the order of their times; those without one come last. All of them are held in memory.
 void recording_want_sorted(recording_t *recording);

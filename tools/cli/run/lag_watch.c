@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: MIT */
+/* The lag of two sensors from their readings. */
+#include "run/lag_watch.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Sums that shrink to less than this share of what they were began anew; those that shrink less were faded. */
+#define FADED_SHARE 0.3f
+
+void lag_watch_begin(lag_watch_t *watch)
+{
+    memset(watch, 0, sizeof *watch);
+    /* The only errors are null pointers. */
+    (void)jcal_sensor_init(&watch->sensor1);
+    (void)jcal_sensor_init(&watch->sensor2);
+    lag_watch_again(watch);
+}
+
+void lag_watch_again(lag_watch_t *watch)
+{
+    const jcal_pairing_config_t config = jcal_pairing_config_default();
+    (void)jcal_pairing_init(&watch->pairing, &config);
+    (void)jcal_lag_init(&watch->lag);
+    watch->motion_s = 0.0f;
+    watch->weighted_us = 0.0;
+    watch->anew_us = watch->now_us;
+}
+
+/* Follows when the motion was that is in the estimator's sums. */
+static void follow_motion(lag_watch_t *watch)
+{
+    jcal_lag_result_t result;
+    (void)jcal_lag_get(&watch->lag, &result);
+    const float before_s = watch->motion_s;
+    const double since_us = (double)(int64_t)(watch->now_us - watch->begun_us);
+    if (result.motion_s >= before_s) {
+        watch->weighted_us += (double)(result.motion_s - before_s) * since_us;
+    } else if (result.motion_s > FADED_SHARE * before_s) {
+        watch->weighted_us *= (double)(result.motion_s / before_s);
+    } else {
+        watch->weighted_us = (double)result.motion_s * since_us;
+    }
+    watch->motion_s = result.motion_s;
+    watch->most_motion_s = fmaxf(watch->most_motion_s, result.motion_s);
+}
+
+static void learn(lag_watch_t *watch, const jcal_pair_t *pair)
+{
+    const jcal_reading_t reading1 = {pair->t_us, pair->imu1};
+    const jcal_reading_t reading2 = {pair->t_us, pair->imu2};
+    if (watch->begun_us == 0u) {
+        watch->begun_us = pair->t_us;
+    }
+    if (watch->anew_us == 0u) {
+        watch->anew_us = pair->t_us;
+    }
+    watch->now_us = pair->t_us;
+    const jcal_status_t of1 = jcal_sensor_push(&watch->sensor1, &reading1);
+    const jcal_status_t of2 = jcal_sensor_push(&watch->sensor2, &reading2);
+    if (of1 == JCAL_TICK && of2 == JCAL_TICK) {
+        (void)jcal_lag_add(&watch->lag, jcal_sensor_tick(&watch->sensor1), jcal_sensor_tick(&watch->sensor2));
+    }
+    (void)jcal_lag_step(&watch->lag);
+    (void)jcal_pairing_align(&watch->pairing, &watch->lag);
+    follow_motion(watch);
+}
+
+/* A reading that is equal in all six numbers to the one before. */
+static bool repeats(lag_watch_t *watch, unsigned which, const jcal_imu_t *imu)
+{
+    jcal_imu_t *last = &watch->last[which - 1u];
+    const bool same = watch->has_last[which - 1u] && memcmp(last, imu, sizeof *imu) == 0;
+    *last = *imu;
+    watch->has_last[which - 1u] = true;
+    return same;
+}
+
+void lag_watch_push(lag_watch_t *watch, unsigned which, const jcal_reading_t *reading)
+{
+    if (repeats(watch, which, &reading->imu)) {
+        return;
+    }
+    (void)jcal_pairing_push(&watch->pairing, which, reading); /* what it rejects is no business of the lag */
+    jcal_pair_t pair;
+    while (jcal_pairing_pull(&watch->pairing, &pair) == JCAL_OK) {
+        learn(watch, &pair);
+    }
+}
+
+lag_found_t lag_watch_found(const lag_watch_t *watch)
+{
+    jcal_lag_result_t result;
+    (void)jcal_lag_get(&watch->lag, &result);
+    const double middle_us = (watch->motion_s > 0.0f) ? watch->weighted_us / (double)watch->motion_s : 0.0;
+    return (lag_found_t){.known = result.lag_known,
+                         .lag_s = (double)result.lag_s,
+                         .bound_s = (double)result.bound_s,
+                         .at_us = watch->begun_us + (uint64_t)(int64_t)middle_us,
+                         .spent_s = 1e-6 * (double)(int64_t)(watch->now_us - watch->anew_us),
+                         .motion_s = (double)watch->most_motion_s};
+}
