@@ -37,7 +37,7 @@ static exit_status_t refused(void)
 static bool is_refused(session_t *session)
 {
     if (session->rows % LOOK_EVERY_ROWS == 0) {
-        check_findings(&session->reading.recording.check, &session->findings);
+        reading_findings(&session->reading, session->source.head.reason, &session->findings);
     }
     session->rows++;
     return session->findings.refuses;
@@ -96,7 +96,7 @@ static exit_status_t run_rows(session_t *session)
         return reading_give_up(&session->reading, event);
     }
     progress_clear(&session->reading.progress);
-    check_findings(&session->reading.recording.check, &session->findings);
+    reading_findings(&session->reading, session->source.head.reason, &session->findings);
     tell(session);
     const exit_status_t status = angle_table_end(&session->table);
     if (status != EXIT_READY) {
@@ -149,7 +149,7 @@ int angles_command(int argc, char **argv)
     common_parse(&ANGLES_LINE, argc, argv, &common, &session->options);
     exit_status_t status = prepare(session);
     if (status == EXIT_READY) {
-        status = reading_open(&session->reading, common.recording, common.sort);
+        status = reading_open_given(&session->reading, &common);
         status = (status == EXIT_READY) ? run_recording(session) : status;
         orientations_close(&session->orientations);
         reading_close(&session->reading);

@@ -301,7 +301,8 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
 }
 
 const command_line_t ANGLES_LINE = {
-    .args_doc = "RECORDING.csv --joint hinge|two-dof|ball",
+    .args_doc = "RECORDING.csv --joint hinge|two-dof|ball\nSENSOR1.csv SENSOR2.csv --joint hinge|two-dof|ball",
+    .two_files = true,
     .doc =
         "Computes the angles of a joint from a recording of arbitrary motion.\v"
         "The recording is as for 'jointcal hinge'. Orientations are taken from the columns q1_w, q1_x, q1_y, q1_z, q2_w ... "
@@ -313,7 +314,7 @@ const command_line_t ANGLES_LINE = {
         "a row for each row of the recording; its angles are empty while the calibration is not ready. Flexion and pronation go on beyond "
         "180 degrees instead of jumping by 360. A .sto file "
         "holds only rows with angles.\n"
-        "\n"
+        "\n" COMMON_TWO_FILES
         "Exit status: 0 angles at the end; 3 read to the end but without angles there; 2 the command line or a file "
         "is wrong; 1 anything else.",
     .offers = {[COMMON_WINDOW] = {.help = "Memory in seconds for the heading, which drifts, 2 to 600 (default 10)"},
@@ -321,6 +322,7 @@ const command_line_t ANGLES_LINE = {
                    {.help =
                         "Ready when the calibration is known to within DEG degrees with 95 % confidence (default 3)"},
                [COMMON_SORT] = {.help = COMMON_SORT_HELP},
+               [COMMON_LAG] = {.help = COMMON_LAG_HELP},
                [COMMON_SIGN_HINT] = {.help = "As of 'jointcal hinge': same or opposite"}},
     .bound_unit = BOUND_IN_DEG,
     .own = OPTIONS,

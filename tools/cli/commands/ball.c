@@ -43,7 +43,8 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
 }
 
 static const command_line_t LINE = {
-    .args_doc = "RECORDING.csv",
+    .args_doc = "RECORDING.csv\nSENSOR1.csv SENSOR2.csv",
+    .two_files = true,
     .doc =
         "Finds how the two sensors of a person's ball joint, such as hip or shoulder, stand to each other, and where the joint's centre "
         "is, from arbitrary motion.\v"
@@ -52,7 +53,7 @@ static const command_line_t LINE = {
         "pelvis that hardly turns leaves it open, and the rest is told. No axes are needed; 'jointcal angles --joint ball' writes angles.\n"
         "\n"
         "The heading offset turns vectors from the level frame of sensor 2 to that of sensor 1, about z.\n"
-        "\n" COMMON_EXIT_HELP COMMON_PICTURE,
+        "\n" COMMON_TWO_FILES COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] = {.help = "How to compute: stream (default). A ball joint has no other engine",
                             .refusal = "--engine window: a ball joint has the stream engine only"},
@@ -64,7 +65,8 @@ static const command_line_t LINE = {
          [COMMON_SIGN_HINT] = {.refusal = "--sign-hint is for a hinge: a ball joint has no axes"},
          [COMMON_AXIS1_TOWARD] = {.refusal = "--axis1-toward is for axes: a ball joint has none"},
          [COMMON_JSON] = {.help = COMMON_JSON_HELP},
-         [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
+         [COMMON_SORT] = {.help = COMMON_SORT_HELP},
+         [COMMON_LAG] = {.help = COMMON_LAG_HELP}},
     .bound_unit = BOUND_IN_DEG,
     .own = OPTIONS,
     .parse = parse,
@@ -143,7 +145,7 @@ static void write_json(const void *self, json_t *json)
     json_bool(json, "center1_known", result->for_center1);
     json_bool(json, "center2_known", result->for_center2);
     json_word(json, "ready_for", ready ? (both ? "orientation_and_center" : "orientation") : NULL);
-    json_number(json, "lag_s", NAN);
+    report_json_lag(json, &((const ball_run_t *)self)->base.lag);
 }
 
 static void print_known(FILE *file, const char *label, bool known)

@@ -122,7 +122,8 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
 }
 
 static const command_line_t LINE = {
-    .args_doc = "RECORDING.csv",
+    .args_doc = "RECORDING.csv\nSENSOR1.csv SENSOR2.csv",
+    .two_files = true,
     .doc =
         "Finds where both sensors of a recording sit relative to the centre of the joint between them, from arbitrary motion.\v"
         "The recording is as for 'jointcal hinge'. Results are the vectors from the joint's centre to each sensor, in that sensor's "
@@ -130,7 +131,7 @@ static const command_line_t LINE = {
         "\n"
         "On rigid segments places are good to millimetres (model rigid). On a person skin moves with the sensors: places are then good to "
         "some centimetres (model functional), and are ready with a limit such as --max-bound 0.06.\n"
-        "\n" COMMON_EXIT_HELP COMMON_PICTURE,
+        "\n" COMMON_TWO_FILES COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] =
              {.help =
@@ -148,7 +149,8 @@ static const command_line_t LINE = {
          [COMMON_SIGN_HINT] = {.refusal = "--sign-hint is for a hinge: a joint centre has no sign"},
          [COMMON_AXIS1_TOWARD] = {.refusal = "--axis1-toward is for axes: a joint centre has no axes"},
          [COMMON_JSON] = {.help = COMMON_JSON_HELP},
-         [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
+         [COMMON_SORT] = {.help = COMMON_SORT_HELP},
+         [COMMON_LAG] = {.help = COMMON_LAG_HELP}},
     .n_max_least = 50,
     .n_max_most = 20000,
     .bound_unit = BOUND_IN_M,
@@ -318,6 +320,7 @@ static void write_json(const void *self, json_t *json)
                 (known && run->base.oriented) ? DEG_PER_RAD * result->heading_offset_rad : NAN);
     json_word(json, "model", known ? jcal_model_string(run->model) : NULL);
     json_number(json, "misfit", (known && result->misfit > 0.0f) ? result->misfit : NAN);
+    report_json_lag(json, &run->base.lag);
     if (result->head.engine == JCAL_ENGINE_WINDOW) {
         json_word(json, "paper_accepted", NULL); /* the paper has no test of that kind */
     }

@@ -301,6 +301,7 @@ static void write_json(const void *self, json_t *json)
     json_number(json, "segment_length_m", has_all(told) ? told->segment_length_m : NAN);
     json_number(json, "uncertainty_segment_m", bound_or_nan(has_all(told), told->uncertainty_segment_m));
     json_word(json, "model", any ? jcal_model_string(told->model) : NULL);
+    report_json_lag(json, &((const chain_run_t *)self)->base.lag);
 }
 
 static void print_places(FILE *file, const told_t *told)

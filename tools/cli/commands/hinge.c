@@ -69,7 +69,8 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
 }
 
 static const command_line_t LINE = {
-    .args_doc = "RECORDING.csv",
+    .args_doc = "RECORDING.csv\nSENSOR1.csv SENSOR2.csv",
+    .two_files = true,
     .doc =
         "Finds both axes of a hinge joint from a recording of arbitrary motion.\v"
         "The recording is CSV with one header line; the columns t_s (s), gyr1_x, gyr1_y, gyr1_z, gyr2_x ... (rad/s) "
@@ -78,7 +79,7 @@ static const command_line_t LINE = {
         "\n"
         "On rigid segments the axes are exact (model rigid). On a person skin moves with the sensors: then the axes that explain most of "
         "the bending are found (model functional), and ready may mean ready for flexion only.\n"
-        "\n" COMMON_EXIT_HELP COMMON_PICTURE,
+        "\n" COMMON_TWO_FILES COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] =
              {.help = "How to compute. stream (default): sums of moments, remembers everything, constant memory. "
@@ -93,7 +94,8 @@ static const command_line_t LINE = {
          [COMMON_SIGN_HINT] = {.help = COMMON_SIGN_HELP},
          [COMMON_AXIS1_TOWARD] = {.help = COMMON_TOWARD_HELP},
          [COMMON_JSON] = {.help = COMMON_JSON_HELP},
-         [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
+         [COMMON_SORT] = {.help = COMMON_SORT_HELP},
+         [COMMON_LAG] = {.help = COMMON_LAG_HELP}},
     .n_max_least = 20,
     .n_max_most = 10000,
     .bound_unit = BOUND_IN_DEG,
@@ -187,7 +189,7 @@ static report_axes_t axes(const void *self)
     return axes_of(&((const hinge_run_t *)self)->result.hinge);
 }
 
-void hinge_write_keys(json_t *json, const jcal_hinge_auto_result_t *result)
+void hinge_write_keys(json_t *json, const jcal_hinge_auto_result_t *result, const report_lag_t *lag)
 {
     const jcal_hinge_result_t *hinge = &result->hinge;
     const report_axes_t found = axes_of(hinge);
@@ -202,7 +204,7 @@ void hinge_write_keys(json_t *json, const jcal_hinge_auto_result_t *result)
     report_json_vector(json, "joint_to_sensor1_m", result->has_levers, result->joint_to_sensor1_m);
     report_json_vector(json, "joint_to_sensor2_m", result->has_levers, result->joint_to_sensor2_m);
     json_numbers(json, "uncertainty_m", false, bounds, 2); /* of a hinge's centre nobody knows how far it is off yet */
-    json_number(json, "lag_s", NAN);
+    report_json_lag(json, lag);
     if (hinge->head.engine == JCAL_ENGINE_WINDOW) {
         json_bool(json, "paper_accepted", hinge->paper_accepted);
     }
@@ -210,7 +212,8 @@ void hinge_write_keys(json_t *json, const jcal_hinge_auto_result_t *result)
 
 static void write_json(const void *self, json_t *json)
 {
-    hinge_write_keys(json, &((const hinge_run_t *)self)->result);
+    const hinge_run_t *run = self;
+    hinge_write_keys(json, &run->result, &run->base.lag);
 }
 
 static void print_pairing(FILE *file, float margin)

@@ -16,6 +16,6 @@ extern const report_words_t HINGE_WORDS;
 jcal_hinge_auto_result_t hinge_of_rigid(const jcal_hinge_result_t *hinge);
 
 /// Writes the keys that only a hinge has.
-void hinge_write_keys(json_t *json, const jcal_hinge_auto_result_t *result);
+void hinge_write_keys(json_t *json, const jcal_hinge_auto_result_t *result, const report_lag_t *lag);
 
 #endif

@@ -142,8 +142,9 @@ static void emit(void *context, const char *event, const message_estimate_t *est
         return; /* the hub cannot know what is wrong with the recording as a whole */
     }
     progress_clear(&session->reading.progress);
+    const report_lag_t unknown = {0};
     json_t json = report_json_begin(stdout, event, &report);
-    hinge_write_keys(&json, &estimate->result);
+    hinge_write_keys(&json, &estimate->result, &unknown);
     report_json_end(&json, &report);
     if (fflush(stdout) != 0 || ferror(stdout) != 0) {
         session->output_failed = true;

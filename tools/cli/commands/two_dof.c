@@ -106,7 +106,8 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
 }
 
 static const command_line_t LINE = {
-    .args_doc = "RECORDING.csv",
+    .args_doc = "RECORDING.csv\nSENSOR1.csv SENSOR2.csv",
+    .two_files = true,
     .doc =
         "Finds both axes of a joint with two degrees of freedom, like elbow and forearm, and the heading offset of the two "
         "sensors' orientations from a recording of arbitrary motion.\v"
@@ -120,7 +121,7 @@ static const command_line_t LINE = {
         "seconds, then turn the forearm only for ten seconds (model functional). Each axis is found from its own motion, and ready means "
         "ready for the angles: axes and heading to within 15 degrees. The heading is then that between the orientations that the library "
         "makes itself.\n"
-        "\n" COMMON_EXIT_HELP COMMON_PICTURE,
+        "\n" COMMON_TWO_FILES COMMON_EXIT_HELP COMMON_PICTURE,
     .offers =
         {[COMMON_ENGINE] =
              {.help =
@@ -140,7 +141,8 @@ static const command_line_t LINE = {
              {.refusal = "--sign-hint is for a hinge: each axis of a joint with two axes has a sign of its own"},
          [COMMON_AXIS1_TOWARD] = {.help = COMMON_TOWARD_HELP},
          [COMMON_JSON] = {.help = COMMON_JSON_HELP},
-         [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
+         [COMMON_SORT] = {.help = COMMON_SORT_HELP},
+         [COMMON_LAG] = {.help = COMMON_LAG_HELP}},
     .n_max_least = 20,
     .n_max_most = 10000,
     .bound_unit = BOUND_IN_DEG,
@@ -272,6 +274,7 @@ static void write_json(const void *self, json_t *json)
     report_json_vector(json, "joint_to_sensor1_m", has_levers, all->ball.joint_to_sensor1_m);
     report_json_vector(json, "joint_to_sensor2_m", has_levers, all->ball.joint_to_sensor2_m);
     json_numbers(json, "uncertainty_m", has_levers, bounds_m, 2);
+    report_json_lag(json, &run->base.lag);
     if (result->head.engine == JCAL_ENGINE_WINDOW) {
         json_word(json, "paper_accepted", NULL); /* Laidig et al. have no such test */
     }

@@ -28,6 +28,9 @@ int input_open(input_t *input, const char *name)
         input_close(input);
         return fail(input, EISDIR);
     }
+    input->again = S_ISREG(about.st_mode) && input->descriptor != STDIN_FILENO;
+    input->device = (uint64_t)about.st_dev;
+    input->node = (uint64_t)about.st_ino;
     input->size = (S_ISREG(about.st_mode) && about.st_size > 0) ? (uint64_t)about.st_size : 0;
     return 0;
 }
@@ -44,6 +47,11 @@ long input_read(void *context, char *buffer, size_t size)
             return fail(input, errno);
         }
     }
+}
+
+bool input_same(const input_t *a, const input_t *b)
+{
+    return a->device == b->device && a->node == b->node;
 }
 
 void input_close(input_t *input)

@@ -14,8 +14,8 @@
 #define OPTIONS_MAX 32
 
 static const char *const NAMES[COMMON_COUNT] = {"engine",    "n-max",        "window", "every", "max-bound",
-                                                "sign-hint", "axis1-toward", "json",   "sort"};
-static const char *const ARGUMENTS[COMMON_COUNT] = {"NAME", "N", "S", "S", "DEG", "SIGN", "X,Y,Z", NULL, NULL};
+                                                "sign-hint", "axis1-toward", "json",   "sort",  "lag"};
+static const char *const ARGUMENTS[COMMON_COUNT] = {"NAME", "N", "S", "S", "DEG", "SIGN", "X,Y,Z", NULL, NULL, "S"};
 
 /* What argp hands to the parser. */
 typedef struct {
@@ -33,6 +33,9 @@ static void settle(struct argp_state *state, const parse_t *parse)
     }
     if (common->n_max > 0 && common->engine == JCAL_ENGINE_STREAM) {
         argp_error(state, "%s", COMMON_N_MAX_REFUSAL);
+    }
+    if (common->has_lag && common->second == NULL) {
+        argp_error(state, "--lag goes with two files: the sensors of one file have one clock");
     }
     parse->line->settle(state, parse->common, parse->own);
 }
@@ -72,6 +75,10 @@ static void take(struct argp_state *state, const parse_t *parse, common_option_t
     case COMMON_JSON:
         common->json = true;
         return;
+    case COMMON_LAG:
+        common->has_lag = true;
+        common->lag_us = option_time(state, "lag", argument);
+        return;
     case COMMON_SORT:
     case COMMON_COUNT:
     default:
@@ -79,14 +86,25 @@ static void take(struct argp_state *state, const parse_t *parse, common_option_t
     }
 }
 
+static void take_name(struct argp_state *state, const parse_t *parse, const char *argument)
+{
+    common_options_t *common = parse->common;
+    if (common->recording == NULL) {
+        common->recording = argument;
+    } else if (!parse->line->two_files) {
+        argp_error(state, "one recording at a time, and '%s' is a second one", argument);
+    } else if (common->second == NULL) {
+        common->second = argument;
+    } else {
+        argp_error(state, "two files at the most, one of each sensor, and '%s' is a third one", argument);
+    }
+}
+
 static error_t parse_option(int key, char *argument, struct argp_state *state)
 {
     parse_t *parse = state->input;
     if (key == ARGP_KEY_ARG) {
-        if (parse->common->recording != NULL) {
-            argp_error(state, "one recording at a time, and '%s' is a second one", argument);
-        }
-        parse->common->recording = argument;
+        take_name(state, parse, argument);
         return 0;
     }
     if (key == ARGP_KEY_END) {

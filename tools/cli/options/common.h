@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// The one description of the options that commands share: recording, engine, n-max, window, every, max-bound, sign-hint,
-/// axis1-toward, json, sort.
+/// axis1-toward, json, sort, lag.
 ///
 /// A command says which of them it has and in what words, adds a table of its own options, and gets all of them parsed and checked as far
 /// as that does not depend on its joint.
@@ -21,6 +21,9 @@
 /// What was given on the command line.
 typedef struct {
     const char *recording;  ///< File name, "-" for standard input.
+    const char *second;     ///< The file of sensor 2, if there are two; else null.
+    bool has_lag;           ///< The lag of sensor 2's file is given ...
+    int64_t lag_us;         ///< ... and is this.
     bool json;
     bool sort;         ///< Rows are to be put in the order of their times first.
     int64_t every_us;  ///< 0 if not asked for.
@@ -43,6 +46,7 @@ typedef enum {
     COMMON_AXIS1_TOWARD,
     COMMON_JSON,
     COMMON_SORT,
+    COMMON_LAG,
     COMMON_COUNT
 } common_option_t;
 
@@ -55,6 +59,13 @@ typedef struct {
 /// Texts that are the same for all who have the option.
 #define COMMON_EVERY_HELP "Report an estimate every S seconds of recording time"
 #define COMMON_SORT_HELP "Put rows in the order of t_s first; all of them must fit into memory"
+#define COMMON_LAG_HELP                                                                                                \
+    "Of two files: the times of sensor 2 are S seconds later than those of sensor 1 at the same moment. Without it that is found"
+#define COMMON_TWO_FILES                                                                                                                 \
+    "Two files are one sensor's each, in the columns t_s, gyr_x, gyr_y, gyr_z, acc_x, acc_y, acc_z, with clocks and rates of their own, " \
+    "25 to 400 rows a second. They need not have begun together, but then their times must be about the same; files with other times "   \
+    "are taken to begin at once. What is left of a lag, up to 0.25 s, and of a drift, up to 500 ppm, is found from the motion and taken " \
+    "off; without it nothing is called ready, unless --lag gives it.\n\n"
 #define COMMON_JSON_HELP "Write JSON Lines instead of text"
 #define COMMON_SIGN_HELP                                                                                               \
     "What is known about the sign pairing. same: the largest components of both axes have the same sign; opposite: they have not"
@@ -84,6 +95,7 @@ typedef enum { BOUND_IN_DEG, BOUND_IN_M } bound_unit_t;
 typedef struct {
     const char *args_doc;  ///< As argp has it.
     const char *doc;
+    bool two_files;  ///< It takes two files of one sensor each, too.
     common_offer_t offers[COMMON_COUNT];
     int n_max_least, n_max_most;  ///< For the message; the engine's config says what it takes.
     bound_unit_t bound_unit;

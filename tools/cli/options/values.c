@@ -37,6 +37,15 @@ int64_t option_duration(struct argp_state *state, const char *option, const char
     return us;
 }
 
+int64_t option_time(struct argp_state *state, const char *option, const char *text)
+{
+    int64_t us = 0;
+    if (number_to_us(text, &us) != NUMBER_FINITE) {
+        argp_error(state, "--%s: '%s' is not a number of seconds", option, text);
+    }
+    return us;
+}
+
 float option_positive(struct argp_state *state, const char *option, const char *text)
 {
     float value = 0.0f;

@@ -20,6 +20,9 @@ int option_one_of_three(struct argp_state *state, const char *option, const char
 /// Seconds, more than zero; in microseconds.
 int64_t option_duration(struct argp_state *state, const char *option, const char *text);
 
+/// Seconds, of either sign; in microseconds.
+int64_t option_time(struct argp_state *state, const char *option, const char *text);
+
 /// A number above zero.
 float option_positive(struct argp_state *state, const char *option, const char *text);
 

@@ -41,6 +41,15 @@ typedef struct {
     float bound1, bound2;
 } report_axes_t;
 
+/// The lag of sensor 2 behind sensor 1.
+typedef struct {
+    bool known;
+    int64_t lag_us;     ///< Sensor 2's times less those of sensor 1 at the same moment.
+    float bound_s;      ///< 95 %; NaN if it is given.
+    bool two_files;     ///< They have clocks of their own:
+    float drift;        ///< seconds a second by which that of sensor 2 is fast; NaN if it is not known.
+} report_lag_t;
+
 /// The head of a result and what the program knows besides.
 typedef struct {
     const report_words_t *words;
@@ -53,6 +62,8 @@ typedef struct {
     int64_t ready_us;          ///< When it was entered first, as in the file.
     bool has_moved;            ///< A sensor has moved and the joint was not ready since ...
     int64_t moved_us;          ///< ... this time.
+    void (*print_more)(const void *context, FILE *file);  ///< Writes labelled lines on where the rows come from; or null.
+    const void *more;                                     ///< Its context.
     float max_bound;           ///< What the bounds must be below, rad or m.
 } report_t;
 
@@ -79,6 +90,12 @@ void report_json_axes(json_t *json, const report_axes_t *axes);
 
 /// A vector, or null.
 void report_json_vector(json_t *json, const char *key, bool known, jcal_vec3_t v);
+
+/// The key `lag_s`; of two files `lag_uncertainty_s` and `drift_ppm` too.
+void report_json_lag(json_t *json, const report_lag_t *lag);
+
+/// Says so if the sensors of one file are out of step; `step_s` is the time from row to row, 0 if it is not known.
+void report_advise_lag(const report_lag_t *lag, double step_s, check_findings_t *findings);
 
 /// The key `rejected_by`.
 void json_rejected(json_t *json, const uint32_t rejected_by[static JCAL_REJECT_COUNT]);

@@ -4,6 +4,8 @@
 
 #include "units.h"
 
+#include <math.h>
+
 json_t report_json_begin(FILE *file, const char *event, const report_t *report)
 {
     const jcal_head_t *head = &report->head;
@@ -32,6 +34,15 @@ void report_json_axes(json_t *json, const report_axes_t *axes)
     report_json_vector(json, "axis1", axes->known && report_is_axis(axes->axis1), axes->axis1);
     report_json_vector(json, "axis2", axes->known && report_is_axis(axes->axis2), axes->axis2);
     json_numbers(json, "uncertainty_deg", bounded, bounds, 2);
+}
+
+void report_json_lag(json_t *json, const report_lag_t *lag)
+{
+    json_time(json, "lag_s", lag->known, lag->lag_us);
+    if (lag->two_files) {
+        json_number(json, "lag_uncertainty_s", lag->known ? lag->bound_s : NAN);
+        json_number(json, "drift_ppm", lag->known ? 1e6f * lag->drift : NAN);
+    }
 }
 
 void json_rejected(json_t *json, const uint32_t rejected_by[static JCAL_REJECT_COUNT])

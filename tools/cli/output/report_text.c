@@ -9,6 +9,9 @@
 
 #include <inttypes.h>
 
+/* A lag that is not worth a word, s. */
+#define LAG_BORNE_S 0.02
+
 /* A bound in the unit that a person reads. */
 static double readable(const report_t *report, float bound)
 {
@@ -59,6 +62,22 @@ void report_advise_sign(const report_axes_t *axes, check_findings_t *findings)
             "the sign of axis 1 hangs on a tie of its components: another recording may give its opposite, and angles "
             "of the other sign; --axis1-toward X,Y,Z settles it");
     }
+}
+
+void report_advise_lag(const report_lag_t *lag, double step_s, check_findings_t *findings)
+{
+    const double lag_s = 1e-6 * (double)lag->lag_us;
+    if (lag->two_files || !lag->known || fabs(lag_s) <= LAG_BORNE_S) {
+        return;
+    }
+    char rows[48] = "";
+    if (step_s > 0.0) {
+        (void)snprintf(rows, sizeof rows, ", %.1f rows", fabs(lag_s) / step_s);
+    }
+    check_say(findings,
+              "the readings of sensor %d come %.0f ms%s later than those of the other one, to within %.0f ms: move its columns up by that; "
+              "the result is wrong by what the joint turns in that time",
+              (lag_s > 0.0) ? 2 : 1, 1e3 * fabs(lag_s), rows, ceil(1e3 * (double)lag->bound_s));
 }
 
 void report_apply_findings(report_t *report)
@@ -329,6 +348,9 @@ void report_print_state(FILE *file, const report_t *report)
                   readable(report, report->max_bound), report->words->unit);
     report_print_words(file, "weakest", weak_words(report->words, head->weak));
     print_help(file, report);
+    if (report->print_more != NULL) {
+        report->print_more(report->more, file);
+    }
     print_ready_time(file, report);
     report_print_samples(file, head->samples, head->rejected, head->rejected_by);
 }

@@ -3,6 +3,7 @@
 #include "run/calibrate.h"
 
 #include "input/orientations.h"
+#include "run/lag_watch.h"
 #include "run/reading.h"
 
 #include <errno.h>
@@ -12,6 +13,9 @@
 
 /* How often the findings of the recording are looked up while ready: they change slowly and cost as much as some tens of rows. */
 #define LOOK_EVERY_ROWS 100u
+
+/* Time of the first row for the estimator of the lag. */
+#define LAG_ORIGIN_US UINT64_C(1000000000000)
 
 /* Everything of one run; too big for comfort on the stack. */
 typedef struct {
@@ -26,6 +30,7 @@ typedef struct {
     uint32_t looked_at;               /* rows when the recording was last looked at as a whole */
     uint32_t rejected_by[JCAL_REJECT_COUNT];
     report_t report;
+    lag_watch_t lag;
     int64_t next_us; /* when the next estimate is due, as in the file */
 } session_t;
 
@@ -38,10 +43,34 @@ static exit_status_t flush(void)
     return EXIT_READY;
 }
 
+/* What is known of the lag: of two files it is taken off, of one it is told. */
+static void look_at_lag(session_t *session)
+{
+    report_lag_t *lag = &session->self->lag;
+    if (session->reading.two != NULL) {
+        const two_files_lag_t found = two_files_lag(session->reading.two);
+        const bool given = session->reading.two->kind == TWO_FILES_GIVEN;
+        *lag = (report_lag_t){.known = found.known,
+                              .lag_us = found.lag_us,
+                              .bound_s = given ? NAN : (float)found.bound_s,
+                              .two_files = true,
+                              .drift = given ? NAN : (float)found.drift};
+        return;
+    }
+    const lag_found_t found = lag_watch_found(&session->lag);
+    *lag = (report_lag_t){.known = found.known,
+                          .lag_us = (int64_t)llround(1e6 * found.lag_s),
+                          .bound_s = (float)found.bound_s};
+    check_measures_t measures;
+    check_measures(&session->reading.recording.check, &measures);
+    report_advise_lag(lag, measures.step_s, &session->report.findings);
+}
+
 /* Asks what there is to say of the recording as a whole. */
 static void look_at_recording(session_t *session)
 {
-    check_findings(&session->reading.recording.check, &session->report.findings);
+    reading_findings(&session->reading, session->report.head.reason, &session->report.findings);
+    look_at_lag(session);
     if (session->joint->axes != NULL && !session->sign_is_chosen && session->report.head.status == JCAL_READY) {
         const report_axes_t axes = session->joint->axes(session->self);
         report_advise_sign(&axes, &session->report.findings);
@@ -126,6 +155,17 @@ static recording_event_t next_row(session_t *session, oriented_row_t *row)
     return recording_next(&session->reading.recording, &row->row);
 }
 
+/* Shows a row of one file to the estimator of the lag: first its readings as they are, so that the joint's engine is not concerned. */
+static void watch_lag(session_t *session, const recording_row_t *row)
+{
+    if (session->reading.two == NULL && row->has_time) {
+        const uint64_t t_us = LAG_ORIGIN_US + (uint64_t)row->t_us - (uint64_t)session->report.clock.start_us;
+        const jcal_reading_t readings[2] = {{t_us, row->imu1}, {t_us, row->imu2}};
+        lag_watch_push(&session->lag, 1u, &readings[0]);
+        lag_watch_push(&session->lag, 2u, &readings[1]);
+    }
+}
+
 static bool push(session_t *session, oriented_row_t *oriented)
 {
     recording_row_t *row = &oriented->row;
@@ -136,6 +176,7 @@ static bool push(session_t *session, oriented_row_t *oriented)
         session->next_us = clock->start_us + session->options.every_us;
     }
     session->samples++;
+    watch_lag(session, row);
     if (oriented->restarted) {
         session->joint->reset(session->self);
         memset(session->seen, 0, sizeof session->seen);
@@ -189,14 +230,19 @@ static exit_status_t report_changes(session_t *session)
     return estimate_due(session) ? emit(session, "estimate") : EXIT_READY;
 }
 
+static exit_status_t refused(void)
+{
+    complain("jointcal", 0, 0, "the library refused a sample; please report this");
+    return EXIT_TROUBLE;
+}
+
 static exit_status_t run_rows(session_t *session)
 {
     oriented_row_t row;
     recording_event_t event = next_row(session, &row);
     for (; event == RECORDING_ROW; event = next_row(session, &row)) {
         if (!push(session, &row)) {
-            complain("jointcal", 0, 0, "the library refused a sample; please report this");
-            return EXIT_TROUBLE;
+            return refused();
         }
         const exit_status_t status = report_changes(session);
         if (status != EXIT_READY) {
@@ -241,6 +287,11 @@ static exit_status_t run_recording(session_t *session)
     return status;
 }
 
+static void print_files(const void *two, FILE *file)
+{
+    two_files_print(two, file);
+}
+
 static exit_status_t run(session_t *session, const common_options_t *options, const calibrate_joint_t *joint)
 {
     const jcal_vec3_t toward = options->axis1_toward;
@@ -249,8 +300,13 @@ static exit_status_t run(session_t *session, const common_options_t *options, co
     session->sign_is_chosen = toward.x != 0.0f || toward.y != 0.0f || toward.z != 0.0f;
     session->report.words = joint->words;
     session->report.max_bound = options->max_bound;
-    exit_status_t status = reading_open(&session->reading, options->recording, options->sort);
+    exit_status_t status = reading_open_given(&session->reading, options);
+    if (status == EXIT_READY && !lag_watch_begin(&session->lag)) {
+        status = refused();
+    }
     if (status == EXIT_READY) {
+        session->report.print_more = (session->reading.two != NULL) ? print_files : NULL;
+        session->report.more = session->reading.two;
         status = run_recording(session);
     }
     reading_close(&session->reading);

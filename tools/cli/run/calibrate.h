@@ -14,6 +14,7 @@ typedef struct {
     jcal_engine_t engine;  ///< Which was asked for; set before `start`.
     void *storage;         ///< Of the window engine, from malloc by `start`; calibrate frees it.
     bool oriented;         ///< `start` says so: rows come with orientations.
+    report_lag_t lag;      ///< Of sensor 2, for write_json.
 } calibrate_state_t;
 
 /// A joint; `self` is its own state.

@@ -8,23 +8,20 @@
 /* Sums that shrink to less than this share of what they were began anew; those that shrink less were faded. */
 #define FADED_SHARE 0.3f
 
-void lag_watch_begin(lag_watch_t *watch)
+bool lag_watch_begin(lag_watch_t *watch)
 {
     memset(watch, 0, sizeof *watch);
-    /* The only errors are null pointers. */
-    (void)jcal_sensor_init(&watch->sensor1);
-    (void)jcal_sensor_init(&watch->sensor2);
-    lag_watch_again(watch);
+    return jcal_sensor_init(&watch->sensor1) == JCAL_OK && jcal_sensor_init(&watch->sensor2) == JCAL_OK &&
+           lag_watch_again(watch);
 }
 
-void lag_watch_again(lag_watch_t *watch)
+bool lag_watch_again(lag_watch_t *watch)
 {
     const jcal_pairing_config_t config = jcal_pairing_config_default();
-    (void)jcal_pairing_init(&watch->pairing, &config);
-    (void)jcal_lag_init(&watch->lag);
     watch->motion_s = 0.0f;
     watch->weighted_us = 0.0;
     watch->anew_us = watch->now_us;
+    return jcal_pairing_init(&watch->pairing, &config) == JCAL_OK && jcal_lag_init(&watch->lag) == JCAL_OK;
 }
 
 /* Follows when the motion was that is in the estimator's sums. */

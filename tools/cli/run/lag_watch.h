@@ -31,11 +31,11 @@ typedef struct {
     double motion_s;  ///< Most motion that any estimate had.
 } lag_found_t;
 
-/// Prepares.
-void lag_watch_begin(lag_watch_t *watch);
+/// Prepares. False if the library refuses, which would be a mistake of this program.
+bool lag_watch_begin(lag_watch_t *watch);
 
-/// Forgets the lag and begins to look for it anew; the sensors' orientations stay.
-void lag_watch_again(lag_watch_t *watch);
+/// Forgets the lag and begins to look for it anew; the sensors' orientations stay. False as above.
+bool lag_watch_again(lag_watch_t *watch);
 
 /// Takes in a reading of sensor `which`, 1 or 2; both sensors' readings come about in the order of their times.
 void lag_watch_push(lag_watch_t *watch, unsigned which, const jcal_reading_t *reading);

@@ -6,17 +6,26 @@
 
 #include "input/input.h"
 #include "input/recording.h"
+#include "options/common.h"
 #include "output/message.h"
 #include "output/progress.h"
+#include "run/two_files.h"
 
 typedef struct {
     input_t input;
     recording_t recording;
     progress_t progress;
+    two_files_t *two;  ///< If the recording is in two files; else null.
 } reading_t;
 
 /// Opens a recording and reads its header; "-" is standard input. Rows come in the order of their times if `sorted`. EXIT_READY, or another status after a message.
 exit_status_t reading_open(reading_t *reading, const char *name, bool sorted);
+
+/// The same of what the command line says, which may be two files with one sensor each.
+exit_status_t reading_open_given(reading_t *reading, const common_options_t *options);
+
+/// What there is to say of the recording as a whole; `reason` is what the joint says.
+void reading_findings(const reading_t *reading, jcal_reason_t reason, check_findings_t *findings);
 
 /// Draws progress from here on.
 void reading_begin(reading_t *reading);

@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: MIT */
+/* What there is to say of two files with clocks of their own. */
+#include "run/two_files.h"
+
+#include "output/json.h"
+
+#include <inttypes.h>
+#include <math.h>
+#include <string.h>
+
+#define US_PER_S 1e6
+#define MS_PER_S 1e3
+#define PPM 1e6
+
+two_files_lag_t two_files_lag(const two_files_t *two)
+{
+    two_files_lag_t lag = {.known = true, .lag_us = two->base_us};
+    if (two->kind == TWO_FILES_GIVEN) {
+        return lag;
+    }
+    const double t_s = (double)two->now_us / US_PER_S;
+    lag.known = two->line.count > 0;
+    lag.beyond_us = (int64_t)llround(US_PER_S * clock_line_at(&two->line, t_s));
+    lag.lag_us += lag.beyond_us;
+    lag.bound_s = clock_line_bound(&two->line, t_s);
+    lag.drift = two->line.drift;
+    lag.drift_bound = two->line.drift_bound;
+    return lag;
+}
+
+/* The name of a file without its folders. */
+static const char *short_name(const two_files_t *two, unsigned k)
+{
+    const char *name = two->config.names[k];
+    const char *slash = strrchr(name, '/');
+    return (slash != NULL) ? slash + 1 : name;
+}
+
+/* What is wrong with the times of a file; true if that explains why nothing is ready. */
+static bool say_times(const two_files_t *two, unsigned k, check_findings_t *findings)
+{
+    const check_t *check = (two->checks[k].rows > 0) ? &two->checks[k] : &two->files[k].recording.check;
+    sentence_t sentences[CHECK_SENTENCES];
+    const size_t count = check_time_sentences(&check->times, sentences, CHECK_SENTENCES);
+    if (check->rows == 0) {
+        check_say(findings, "%.80s: there is a header line and no row below it", short_name(two, k));
+    }
+    for (size_t j = 0; j < count; j++) {
+        check_say(findings, "%.80s: %.150s", short_name(two, k), sentences[j]);
+    }
+    return check->rows == 0 || check_time_explains(&check->times);
+}
+
+/* Readings that are wrong as they are: these words say more than that the lag is not known. */
+static bool are_wrong(jcal_reason_t reason)
+{
+    return reason == JCAL_REASON_BAD_SAMPLES || reason == JCAL_REASON_WRONG_UNITS_GYR ||
+           reason == JCAL_REASON_WRONG_UNITS_ACC || reason == JCAL_REASON_GRAVITY_OFF;
+}
+
+/* Puts what explains before all else. */
+static void put_first(check_findings_t *findings, const check_findings_t *first, jcal_reason_t reason)
+{
+    const check_findings_t rest = *findings;
+    memcpy(findings->sentences, first->sentences, sizeof findings->sentences);
+    findings->count = first->count;
+    for (size_t k = 0; k < rest.count; k++) {
+        check_say(findings, "%s", rest.sentences[k]);
+    }
+    findings->explains = true;
+    findings->reason = reason;
+}
+
+static void say_no_lag(const two_files_t *two, jcal_reason_t reason, check_findings_t *findings)
+{
+    check_findings_t own = {0};
+    if (two->moved) {
+        check_say(&own,
+                  "the lag of sensor 2 was not found within 0.25 s of %s: do these sensors share a joint? --lag S gives "
+                  "the lag, say of a tap that both files show",
+                  (two->kind == TWO_FILES_ONE_CLOCK) ? "the times as they are" : "both files beginning at once");
+    } else {
+        check_say(&own, "too little motion to find the lag of sensor 2: it takes about 20 s of lively motion of both "
+                            "segments; or --lag S gives it");
+    }
+    if (findings->explains || are_wrong(reason)) {
+        check_say(findings, "%s", own.sentences[0]);
+    } else {
+        put_first(findings, &own, two->moved ? JCAL_REASON_NOT_ONE_JOINT : JCAL_REASON_NO_MOTION);
+    }
+}
+
+void two_files_findings(const two_files_t *two, jcal_reason_t reason, check_findings_t *findings)
+{
+    check_findings_t own = {0};
+    const bool wrong1 = say_times(two, 0u, &own);
+    const bool wrong2 = say_times(two, 1u, &own);
+    const bool has_lag = two_files_lag(two).known;
+    if (two->pairs == 0 && !wrong1 && !wrong2) {
+        check_say(&own, "no reading of one file is near one of the other in time: less than 10 a second, or another time");
+    }
+    if (wrong1 || wrong2 || two->pairs == 0) {
+        findings->explains = false; /* that there are no pairs says less */
+        findings->count = 0;
+        put_first(findings, &own, JCAL_REASON_BAD_SAMPLES);
+    } else {
+        for (size_t k = 0; k < own.count; k++) {
+            check_say(findings, "%s", own.sentences[k]);
+        }
+        if (!has_lag) {
+            say_no_lag(two, reason, findings);
+        }
+    }
+    findings->refuses = findings->refuses || !has_lag;
+}
+
+static void print_clocks(const two_files_t *two, FILE *file)
+{
+    char apart[32];
+    const char *text = time_text(two->base_us, apart);
+    if (two->kind == TWO_FILES_ONE_BEGINNING) {
+        (void)fprintf(file, "  %-18s taken to begin at once, where their times are %s s apart\n", "both files", text);
+    } else if (two->kind == TWO_FILES_ONE_CLOCK) {
+        (void)fprintf(file, "  %-18s taken to have one clock, about\n", "both files");
+    } else {
+        (void)fprintf(file, "  %-18s %s s, as given by --lag\n", "lag of sensor 2", text);
+    }
+}
+
+void two_files_print(const two_files_t *two, FILE *file)
+{
+    print_clocks(two, file);
+    const two_files_lag_t lag = two_files_lag(two);
+    if (!lag.known) {
+        (void)fprintf(file, "  %-18s unknown\n", "lag of sensor 2");
+    } else if (two->kind != TWO_FILES_GIVEN) {
+        char whole[32];
+        (void)fprintf(file, "  %-18s %.0f ms beyond that at the end, %s s in all, to within %.0f ms; taken off\n",
+                      "lag of sensor 2", (double)lag.beyond_us / MS_PER_S, time_text(lag.lag_us, whole),
+                      ceil(MS_PER_S * lag.bound_s));
+        (void)fprintf(file, "  %-18s %+.0f ppm beside that of sensor 1, to within %.0f ppm; taken off\n", "clock of sensor 2",
+                      PPM * lag.drift, ceil(PPM * lag.drift_bound));
+    }
+    if (two->left_out > 0) {
+        (void)fprintf(file, "  %-18s %" PRIu64 " readings of sensor 2, where the lag is not known to within 12 ms\n",
+                      "left out", two->left_out);
+    }
+    (void)fprintf(file, "  %-18s %" PRIu64 " and %" PRIu64 ", which make %" PRIu64 " pairs, one every 10 ms\n", "readings",
+                  two->readings[0], two->readings[1], two->pairs);
+}
