@@ -241,7 +241,7 @@ class Refused(AnglesTest):
         self.assert_usage(["angles", "a.csv"], "which joint")
         self.assert_usage(["angles", "--joint", "hinge"], "which recording")
         self.assert_usage(["angles", "a", "--joint", "knee"], "--joint: 'knee' is neither hinge, two-dof nor ball")
-        self.assert_usage(["angles", "a", "b", "--joint", "hinge"], "'b' is a second one")
+        self.assert_usage(["angles", "a", "b", "c", "--joint", "hinge"], "'c' is a third one")
         base = ["angles", "a", "--joint", "two-dof"]
         for option, values in (("--out", ["a", "a.txt", ".sto"]), ("--zero", ["here", "", "nan"]),
                                ("--signs", ["both"]), ("--positive", ["up", "pronation,flexion"]),

@@ -13,8 +13,9 @@ DATA = pathlib.Path(os.environ.get("JOINTCAL_DATA", ROOT / "data"))
 RIG = sorted(DATA.glob("rig_3D_*.csv"))
 KEYS = ["event", "t_s", "status", "engine", "weak", "hint", "reason", "joint_to_sensor1_m", "joint_to_sensor2_m",
         "uncertainty_m", "weakest_direction1", "weakest_direction2", "uncertainty_weakest_m", "acc_bias1_m_s2",
-        "acc_bias2_m_s2", "heading_offset_deg", "model", "misfit", "advice", "samples", "rejected", "rejected_by"]
-WINDOW_KEYS = KEYS[:18] + ["paper_accepted"] + KEYS[18:]
+        "acc_bias2_m_s2", "heading_offset_deg", "model", "misfit", "lag_s", "advice",
+        "samples", "rejected", "rejected_by"]
+WINDOW_KEYS = KEYS[:19] + ["paper_accepted"] + KEYS[19:]
 ALL = recordings.COLUMNS + recordings.ORIENTATION_COLUMNS
 CELLS = recordings.texts(recordings.center_rows(25))
 FILE = recordings.csv(CELLS, ALL)
@@ -162,7 +163,7 @@ class Refused(CenterTest):
 
     def test_values_of_options(self):
         self.assert_usage(["center"], "which recording")
-        self.assert_usage(["center", "a", "b"], "'b' is a second one")
+        self.assert_usage(["center", "a", "b", "c"], "'c' is a third one")
         self.assert_usage(["center", "a", "--method", "best"], "--method: 'best' is neither ss, sa nor ls")
         self.assert_usage(["center", "a", "--derivative", "x"], "--derivative: 'x' is neither")
         for option, values in (("window", ("0", "9", "3601", "x")), ("max-bound", ("0", "0.2", "10", "x", "inf")),

@@ -12,7 +12,7 @@ DEMO = pathlib.Path(__file__).resolve().parents[2] / "tools/demo/chain_demo.csv"
 TRUTH = json.loads(DEMO.with_suffix(".json").read_text())
 PLACES = ["hip_to_pelvis_m", "hip_to_thigh_m", "knee_to_thigh_m", "knee_to_shank_m"]
 KEYS = ["event", "t_s", "status", "engine", "weak", "hint", "reason", *PLACES, "uncertainty_m", "segment_length_m",
-        "uncertainty_segment_m", "model", "advice", "samples", "rejected", "rejected_by"]
+        "uncertainty_segment_m", "model", "lag_s", "advice", "samples", "rejected", "rejected_by"]
 FILE = DEMO.read_text()
 COLUMNS = FILE.split("\n", 1)[0].split(",")
 CELLS = [line.split(",") for line in FILE.splitlines()[1:]]

@@ -25,7 +25,7 @@ class CommandLine(ProgramTest):
         self.assert_usage([], "which subcommand")
         self.assert_usage(["knee"], "no subcommand 'knee'")
         self.assert_usage(["hinge"], "which recording")
-        self.assert_usage(["hinge", "a.csv", "b.csv"], "'b.csv' is a second one")
+        self.assert_usage(["hinge", "a.csv", "b.csv", "c.csv"], "'c.csv' is a third one")
 
     def test_values_of_options(self):
         self.assert_usage(["hinge", "a", "--engine", "steam"], "--engine: 'steam' is neither stream nor window")

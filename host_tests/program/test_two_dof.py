@@ -15,7 +15,7 @@ DATA = pathlib.Path(os.environ.get("JOINTCAL_DATA", ROOT / "data"))
 RIG = sorted(DATA.glob("rig_2D_*.csv"))
 KEYS = ["event", "t_s", "status", "engine", "weak", "hint", "reason", "axis1", "axis2", "uncertainty_deg",
         "heading_offset_deg", "uncertainty_heading_deg", "carrying_angle_deg", "model", "ready_for", "joint_to_sensor1_m",
-        "joint_to_sensor2_m", "uncertainty_m", "advice", "samples", "rejected", "rejected_by"]
+        "joint_to_sensor2_m", "uncertainty_m", "lag_s", "advice", "samples", "rejected", "rejected_by"]
 COLUMNS = recordings.COLUMNS + recordings.ORIENTATION_COLUMNS
 RAW = recordings.COLUMNS
 ROWS = recordings.two_dof_rows(30)
@@ -102,7 +102,7 @@ class Columns(TwoDofTest):
             # Ten seconds of one constraint alone tell less than all: 5 degrees are asked for.
             lines, status = self.lines(FILE, "--every", "1", "--engine", "window", "--max-bound", "5", *constraint)
             for line in lines:
-                self.assertEqual(list(line), KEYS[:18] + ["paper_accepted"] + KEYS[18:])
+                self.assertEqual(list(line), KEYS[:19] + ["paper_accepted"] + KEYS[19:])
                 self.assertEqual(line["engine"], "window")
             self.assertEqual(status, 0)
             self.assertLess(angle_deg(lines[-1]["axis1"], (0, 0, 1)), lines[-1]["uncertainty_deg"][0])
@@ -277,7 +277,7 @@ class Refused(TwoDofTest):
 
     def test_values_of_options(self):
         self.assert_usage(["two-dof"], "which recording")
-        self.assert_usage(["two-dof", "a", "b"], "'b' is a second one")
+        self.assert_usage(["two-dof", "a", "b", "c"], "'c' is a third one")
         self.assert_usage(["two-dof", "a", "--constraint", "both"], "--constraint: 'both' is neither")
         for value in ("0", "1.9", "601", "x", "nan"):
             self.assert_usage(["two-dof", "a", "--window=" + value], "--window")

@@ -6,6 +6,7 @@
 #include "options/values.h"
 #include "output/report.h"
 #include "run/hub_session.h"
+#include "run/lag_watch.h"
 #include "run/reading.h"
 #include "units.h"
 
@@ -114,17 +115,20 @@ typedef struct {
     uint64_t sent;
     uint64_t answered;
     check_t check; /* of the rows that the hub has told of, so that lines are those of `jointcal hinge` */
+    lag_watch_t lag; /* of the same rows */
     bool output_failed;
     bool has_start;
     int64_t start_us; /* first time in the file */
     int64_t began_us; /* by the clock, when that row was sent */
 } session_t;
 
-/* Shows the rows that the hub has told of to the check. */
+/* Shows the rows that the hub has told of to the check and to the estimator of the lag. */
 static void check_answered(session_t *session, uint64_t until)
 {
     for (; session->answered < until && session->answered < session->sent; session->answered++) {
-        recording_watch(&session->check, &session->under_way[session->answered % ROWS_UNDER_WAY], false);
+        const recording_row_t *row = &session->under_way[session->answered % ROWS_UNDER_WAY];
+        recording_watch(&session->check, row, false);
+        lag_watch_row(&session->lag, row, session->start_us);
     }
 }
 
@@ -137,14 +141,14 @@ static void emit(void *context, const char *event, const message_estimate_t *est
                        .clock.t_us = (int64_t)(estimate->now_us - ORIGIN_US + (uint64_t)session->start_us)};
     check_answered(session, report.head.samples);
     check_findings(&session->check, &report.findings);
+    const report_lag_t lag = lag_watch_report(&session->lag, &session->check, &report.findings);
     report_apply_findings(&report);
     if (strcmp(event, "ready") == 0 && report.head.status != JCAL_READY) {
         return; /* the hub cannot know what is wrong with the recording as a whole */
     }
     progress_clear(&session->reading.progress);
-    const report_lag_t unknown = {0};
     json_t json = report_json_begin(stdout, event, &report);
-    hinge_write_keys(&json, &estimate->result, &unknown);
+    hinge_write_keys(&json, &estimate->result, &lag);
     report_json_end(&json, &report);
     if (fflush(stdout) != 0 || ferror(stdout) != 0) {
         session->output_failed = true;
@@ -240,6 +244,10 @@ static exit_status_t run_recording(session_t *session)
                                    .max_bound_rad = session->common.max_bound,
                                    .sign_hint = (uint8_t)session->common.sign_hint};
     status = hub_session_greet(&session->hub, start);
+    if (status == EXIT_READY && !lag_watch_begin(&session->lag)) {
+        complain("jointcal", 0, 0, "the library refused a call; please report this");
+        status = EXIT_TROUBLE;
+    }
     if (status == EXIT_READY) {
         reading_begin(&session->reading);
         status = run_rows(session);

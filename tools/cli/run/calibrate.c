@@ -14,9 +14,6 @@
 /* How often the findings of the recording are looked up while ready: they change slowly and cost as much as some tens of rows. */
 #define LOOK_EVERY_ROWS 100u
 
-/* Time of the first row for the estimator of the lag. */
-#define LAG_ORIGIN_US UINT64_C(1000000000000)
-
 /* Everything of one run; too big for comfort on the stack. */
 typedef struct {
     common_options_t options;
@@ -57,13 +54,7 @@ static void look_at_lag(session_t *session)
                               .drift = given ? NAN : (float)found.drift};
         return;
     }
-    const lag_found_t found = lag_watch_found(&session->lag);
-    *lag = (report_lag_t){.known = found.known,
-                          .lag_us = (int64_t)llround(1e6 * found.lag_s),
-                          .bound_s = (float)found.bound_s};
-    check_measures_t measures;
-    check_measures(&session->reading.recording.check, &measures);
-    report_advise_lag(lag, measures.step_s, &session->report.findings);
+    *lag = lag_watch_report(&session->lag, &session->reading.recording.check, &session->report.findings);
 }
 
 /* Asks what there is to say of the recording as a whole. */
@@ -155,17 +146,6 @@ static recording_event_t next_row(session_t *session, oriented_row_t *row)
     return recording_next(&session->reading.recording, &row->row);
 }
 
-/* Shows a row of one file to the estimator of the lag: first its readings as they are, so that the joint's engine is not concerned. */
-static void watch_lag(session_t *session, const recording_row_t *row)
-{
-    if (session->reading.two == NULL && row->has_time) {
-        const uint64_t t_us = LAG_ORIGIN_US + (uint64_t)row->t_us - (uint64_t)session->report.clock.start_us;
-        const jcal_reading_t readings[2] = {{t_us, row->imu1}, {t_us, row->imu2}};
-        lag_watch_push(&session->lag, 1u, &readings[0]);
-        lag_watch_push(&session->lag, 2u, &readings[1]);
-    }
-}
-
 static bool push(session_t *session, oriented_row_t *oriented)
 {
     recording_row_t *row = &oriented->row;
@@ -176,7 +156,9 @@ static bool push(session_t *session, oriented_row_t *oriented)
         session->next_us = clock->start_us + session->options.every_us;
     }
     session->samples++;
-    watch_lag(session, row);
+    if (session->reading.two == NULL) {
+        lag_watch_row(&session->lag, row, clock->start_us);
+    }
     if (oriented->restarted) {
         session->joint->reset(session->self);
         memset(session->seen, 0, sizeof session->seen);

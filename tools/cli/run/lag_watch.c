@@ -5,6 +5,11 @@
 #include <math.h>
 #include <string.h>
 
+/* Time of the first row of a file that has both sensors. */
+#define ORIGIN_US UINT64_C(1000000000000)
+
+#define US_PER_S 1e6
+
 /* Sums that shrink to less than this share of what they were began anew; those that shrink less were faded. */
 #define FADED_SHARE 0.3f
 
@@ -19,6 +24,7 @@ bool lag_watch_again(lag_watch_t *watch)
 {
     const jcal_pairing_config_t config = jcal_pairing_config_default();
     watch->motion_s = 0.0f;
+    watch->bound_s = 0.0f;
     watch->weighted_us = 0.0;
     watch->anew_us = watch->now_us;
     return jcal_pairing_init(&watch->pairing, &config) == JCAL_OK && jcal_lag_init(&watch->lag) == JCAL_OK;
@@ -38,6 +44,11 @@ static void follow_motion(lag_watch_t *watch)
     } else {
         watch->weighted_us = (double)result.motion_s * since_us;
     }
+    if (result.lag_known && result.bound_s != watch->bound_s && result.motion_s > 0.0f) {
+        const double middle_us = watch->weighted_us / (double)result.motion_s; /* judged just now */
+        watch->at_us = watch->begun_us + (uint64_t)(int64_t)middle_us;
+    }
+    watch->bound_s = result.bound_s;
     watch->motion_s = result.motion_s;
     watch->most_motion_s = fmaxf(watch->most_motion_s, result.motion_s);
 }
@@ -59,8 +70,8 @@ static void learn(lag_watch_t *watch, const jcal_pair_t *pair)
         (void)jcal_lag_add(&watch->lag, jcal_sensor_tick(&watch->sensor1), jcal_sensor_tick(&watch->sensor2));
     }
     (void)jcal_lag_step(&watch->lag);
-    (void)jcal_pairing_align(&watch->pairing, &watch->lag);
     follow_motion(watch);
+    (void)jcal_pairing_align(&watch->pairing, &watch->lag);
 }
 
 /* A reading that is equal in all six numbers to the one before. */
@@ -85,15 +96,35 @@ void lag_watch_push(lag_watch_t *watch, unsigned which, const jcal_reading_t *re
     }
 }
 
+void lag_watch_row(lag_watch_t *watch, const recording_row_t *row, int64_t start_us)
+{
+    if (row->has_time) {
+        const uint64_t t_us = ORIGIN_US + (uint64_t)row->t_us - (uint64_t)start_us;
+        const jcal_reading_t readings[2] = {{t_us, row->imu1}, {t_us, row->imu2}};
+        lag_watch_push(watch, 1u, &readings[0]);
+        lag_watch_push(watch, 2u, &readings[1]);
+    }
+}
+
 lag_found_t lag_watch_found(const lag_watch_t *watch)
 {
     jcal_lag_result_t result;
     (void)jcal_lag_get(&watch->lag, &result);
-    const double middle_us = (watch->motion_s > 0.0f) ? watch->weighted_us / (double)watch->motion_s : 0.0;
     return (lag_found_t){.known = result.lag_known,
                          .lag_s = (double)result.lag_s,
                          .bound_s = (double)result.bound_s,
-                         .at_us = watch->begun_us + (uint64_t)(int64_t)middle_us,
-                         .spent_s = 1e-6 * (double)(int64_t)(watch->now_us - watch->anew_us),
+                         .at_us = watch->at_us,
+                         .spent_s = (double)(int64_t)(watch->now_us - watch->anew_us) / US_PER_S,
                          .motion_s = (double)watch->most_motion_s};
+}
+
+report_lag_t lag_watch_report(const lag_watch_t *watch, const check_t *check, check_findings_t *findings)
+{
+    const lag_found_t found = lag_watch_found(watch);
+    const report_lag_t lag = {
+        .known = found.known, .lag_us = (int64_t)llround(US_PER_S * found.lag_s), .bound_s = (float)found.bound_s};
+    check_measures_t measures;
+    check_measures(check, &measures);
+    report_advise_lag(&lag, measures.step_s, findings);
+    return lag;
 }

@@ -4,6 +4,9 @@
 #ifndef JCAL_CLI_RUN_LAG_WATCH_H
 #define JCAL_CLI_RUN_LAG_WATCH_H
 
+#include "input/row.h"
+#include "output/report.h"
+
 #include "jointcal/pairing.h"
 
 /// All members are private.
@@ -16,6 +19,8 @@ typedef struct {
     float motion_s;      /* in the sums of the estimator */
     float most_motion_s; /* the most that there ever was */
     double weighted_us;  /* times, by motion, of what is in the sums */
+    float bound_s;       /* of what is known, by which a new judgement is told */
+    uint64_t at_us;      /* the middle of the motion of the last one */
     uint64_t begun_us;   /* time of the first pair, of which those count */
     uint64_t anew_us;    /* time of the first pair since the estimator began anew */
     uint64_t now_us;
@@ -40,7 +45,13 @@ bool lag_watch_again(lag_watch_t *watch);
 /// Takes in a reading of sensor `which`, 1 or 2; both sensors' readings come about in the order of their times.
 void lag_watch_push(lag_watch_t *watch, unsigned which, const jcal_reading_t *reading);
 
+/// Takes in a row of a file that has both; `start_us` is the first time in it. Rows without a time are left out.
+void lag_watch_row(lag_watch_t *watch, const recording_row_t *row, int64_t start_us);
+
 /// What is known.
 lag_found_t lag_watch_found(const lag_watch_t *watch);
+
+/// The same of a file that has both, for a report; and what to do about it, to what there is to say of the rows that `check` saw.
+report_lag_t lag_watch_report(const lag_watch_t *watch, const check_t *check, check_findings_t *findings);
 
 #endif

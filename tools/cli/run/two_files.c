@@ -53,6 +53,7 @@ static recording_event_t open_files(two_files_t *two)
     recording_event_t event = open_file(two, 0u);
     event = (event == RECORDING_ROW) ? open_file(two, 1u) : event;
     if (event == RECORDING_ROW && input_same(&two->files[0].input, &two->files[1].input)) {
+        two->at_fault = 1u;
         return recording_refuse(&two->files[1].recording, "the same file twice: each sensor has its own");
     }
     for (unsigned k = 0; k < 2u && event == RECORDING_ROW && !two->config.has_lag; k++) {
@@ -205,6 +206,21 @@ static bool may_pair(const two_files_t *two, const jcal_reading_t *reading)
     return two->config.has_lag || two->line.count == 0 || clock_line_bound(&two->line, t_s) <= BOUND_MOST_S;
 }
 
+/* A reading that is equal in all six numbers to the one before is a lost packet; what is interpolated of such does not look like one. */
+static void take_reading(two_files_t *two, unsigned which, const jcal_reading_t *reading)
+{
+    jcal_imu_t *last = &two->last[which - 1u];
+    two->readings[which - 1u]++;
+    if (two->readings[which - 1u] > 1u && memcmp(last, &reading->imu, sizeof *last) == 0) {
+        two->repeated[which - 1u]++;
+    } else if (which == 2u && !may_pair(two, reading)) {
+        two->left_out++;
+    } else {
+        (void)jcal_pairing_push(&two->pairing, which, reading); /* what it rejects makes no pair */
+    }
+    *last = reading->imu;
+}
+
 recording_event_t two_files_next(void *context, recording_row_t *row)
 {
     two_files_t *two = context;
@@ -216,12 +232,7 @@ recording_event_t two_files_next(void *context, recording_row_t *row)
         if (event != RECORDING_ROW) {
             return event;
         }
-        two->readings[which - 1u]++;
-        if (which == 1u || may_pair(two, &reading)) {
-            (void)jcal_pairing_push(&two->pairing, which, &reading); /* it counts what it rejects */
-        } else {
-            two->left_out++;
-        }
+        take_reading(two, which, &reading);
     }
     two->pairs++;
     two->now_us = (int64_t)pair.t_us - ORIGIN_US;

@@ -41,6 +41,7 @@ typedef struct {
     clock_line_t line;   ///< Over seconds since sensor 1's first time, as sensor 2's clock has them less base_us.
     bool moved;          ///< There was motion from which the lag could be known.
     uint64_t readings[2];
+    uint64_t repeated[2];  ///< Of these, those that repeat the one before.
     uint64_t pairs;
     uint64_t left_out;   ///< Readings of sensor 2 where the lag is not known well enough.
     unsigned at_fault;   ///< Number of the file, 0 or 1, that could not be read on.
@@ -52,6 +53,7 @@ typedef struct {
     check_t checks[2];
     int64_t start_us; /* sensor 1's first time */
     bool has_start;
+    jcal_imu_t last[2];
     int64_t now_us; /* of the last pair, since start_us */
     lag_watch_t watch;
     jcal_pairing_t pairing;

@@ -12,6 +12,9 @@
 #define MS_PER_S 1e3
 #define PPM 1e6
 
+/* Repeated readings that are worth a word, if most are. */
+#define REPEATED 50u
+
 two_files_lag_t two_files_lag(const two_files_t *two)
 {
     two_files_lag_t lag = {.known = true, .lag_us = two->base_us};
@@ -90,11 +93,24 @@ static void say_no_lag(const two_files_t *two, jcal_reason_t reason, check_findi
     }
 }
 
+/* A sensor that mostly repeats itself. */
+static bool say_repeated(const two_files_t *two, unsigned k, check_findings_t *findings)
+{
+    const bool mostly = 2u * two->repeated[k] > two->readings[k];
+    if (mostly && two->repeated[k] > REPEATED) {
+        check_say(findings,
+                  "%.80s: %" PRIu64 " of %" PRIu64 " readings repeat the one before: the sensor stands, or its packets are lost",
+                  short_name(two, k), two->repeated[k], two->readings[k]);
+        return two->pairs == 0;
+    }
+    return false;
+}
+
 void two_files_findings(const two_files_t *two, jcal_reason_t reason, check_findings_t *findings)
 {
     check_findings_t own = {0};
-    const bool wrong1 = say_times(two, 0u, &own);
-    const bool wrong2 = say_times(two, 1u, &own);
+    const bool wrong1 = say_repeated(two, 0u, &own) || say_times(two, 0u, &own);
+    const bool wrong2 = say_repeated(two, 1u, &own) || say_times(two, 1u, &own);
     const bool has_lag = two_files_lag(two).known;
     if (two->pairs == 0 && !wrong1 && !wrong2) {
         check_say(&own, "no reading of one file is near one of the other in time: less than 10 a second, or another time");
