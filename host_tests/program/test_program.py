@@ -10,5 +10,5 @@ sys.dont_write_bytecode = True
 if __name__ == "__main__":
     folder = str(pathlib.Path(__file__).resolve().parent)
     suite = unittest.TestSuite(unittest.defaultTestLoader.discover(folder, pattern=f"test_{name}.py")
-                               for name in ("refused", "words", "accepted", "output", "angles", "two_dof", "ball", "center", "chain"))
+                               for name in ("refused", "words", "accepted", "output", "two_files", "angles", "two_dof", "ball", "center", "chain"))
     sys.exit(not unittest.TextTestRunner().run(suite).wasSuccessful())
