@@ -153,7 +153,7 @@ class TwoFiles(ProgramTest):
     def test_summary(self):
         output = self.run_program("hinge", *self.write_two(two=stamped(LATE, HOUR_S))).stdout.decode()
         self.assertIn("taken to begin at once, where their times are 3600.12 s apart", output)
-        self.assertRegex(output, r"lag of sensor 2 +\d+ ms beyond that at the end, 3600\.1\d+ s in all, to within \d+ ms; taken off")
+        self.assertRegex(output, r"lag of sensor 2 +3600\.1[23]\d? s at the end, \+\d+ ms beside that, to within \d+ ms; taken off")
         self.assertRegex(output, r"clock of sensor 2 +\+\d+ ppm")
         self.assertRegex(output, r"readings +4(500|49\d) and 2(700|69\d), which make 44\d\d pairs, one every 10 ms")
         self.assertIn("taken to have one clock", self.run_program("hinge", *self.write_two()).stdout.decode())

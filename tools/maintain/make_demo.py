@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Write the bundled demo recordings tools/demo/{hinge,knee,elbow,two_dof,chain}_demo.csv and their truths, .json.
+"""Write the bundled demo recordings tools/demo/{hinge,knee,elbow,two_dof,chain}_demo.csv, thigh_demo.csv and shank_demo.csv, and their
+truths, .json.
 
     python3 tools/maintain/make_demo.py            write all
     python3 tools/maintain/make_demo.py --check    exit 1 if the files in the repository differ
@@ -7,6 +8,7 @@
 Hinge: rest, then motion with a stiff joint (nothing to learn about the axis),
 then informative motion: 30 s at 50 Hz with realistic disturbances.
 Knee: a person stands, walks, squats; sensors on skin: 36 s at 50 Hz, with the bones' flexion.
+Thigh and shank: a knee in two files of one sensor each, with clocks and rates of their own.
 Elbow: a person walks, bends, turns the forearm; sensors on skin: 32 s at 50 Hz.
 Two axes: rest, motion about one axis only, then about both: 40 s at 50 Hz.
 Gyroscope bias lets the heading of orientations computed from it drift.
@@ -20,6 +22,8 @@ import sys
 import tempfile
 from pathlib import Path
 
+import numpy as np
+
 TOOLS = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(TOOLS / "python"))
 
@@ -28,6 +32,7 @@ from jointcal_tools.simulate import HingeSpec, simulate_hinge  # noqa: E402
 from jointcal_tools.simulate_chain import ChainSpec, simulate_chain  # noqa: E402
 from jointcal_tools.simulate_people import PersonSpec, simulate_person  # noqa: E402
 from jointcal_tools.simulate_two_dof import TwoDofSpec, simulate_two_dof  # noqa: E402
+from jointcal_tools.two_files import Clock, lag_s, split, write  # noqa: E402
 
 DEMO = TOOLS / "demo"
 HINGE = HingeSpec(motions=(("rest", 4.0), ("stiff", 4.0), ("7", 10.0), ("6", 9.0)),  # and 3 s of transitions
@@ -37,6 +42,8 @@ ELBOW = PersonSpec((("walk", 6.0), ("bend", 13.0), ("turn", 13.0)), "elbow", 50.
 TWO_DOF = TwoDofSpec(motions=(("rest", 4.0), ("hinge", 6.0), ("free", 28.0)),
                      rate_hz=50.0, seed=2022, carrying_deg=8.0, acc_bias=0.1, gyr_bias_deg_s=0.1, soft_tissue_deg=0.3)
 CHAIN = ChainSpec(type=2, seconds=30.0, rate_hz=50.0, seed=2015, noise_scale=0.3, acc_bias=0.1, gyr_bias_deg_s=0.1)
+TWO_FILES = PersonSpec((("stand", 3.0), ("walk", 20.0), ("squat", 20.0)), rate_hz=100.0, seed=2027)
+CLOCKS = (Clock(rate_hz=50.0), Clock(rate_hz=40.0, begin_s=0.16, offset_s=3600.0, lag_s=0.12, drift_ppm=200.0))
 DIGITS = 7  # few enough that no platform's last bit shows
 
 
@@ -70,6 +77,12 @@ def write_demo(folder: Path) -> None:
         if spec.joint == "elbow":  # what 'jointcal two-dof' calls axis 2
             truth["axis2"] = truth["turn_axis2"]
         write_truth(folder / f"{name}.json", truth)
+    person = simulate_person(TWO_FILES)
+    for name, rows in zip(("thigh_demo", "shank_demo"), split(person, CLOCKS, np.random.default_rng(TWO_FILES.seed)), strict=True):
+        write(folder / f"{name}.csv", rows, digits=DIGITS - 1)
+    facts = {name: value for name, value in person.truth().items() if name != "lag_s"}
+    write_truth(folder / "thigh_shank_demo.json", {**facts, "lag_s": lag_s(CLOCKS, 0.0), "drift_ppm": CLOCKS[1].drift_ppm,
+                                                   "source": "simulated (tools/maintain/make_demo.py)"})
     chain = simulate_chain(CHAIN)
     write_csv(folder / "chain_demo.csv", chain.first_two(), digits=DIGITS, extra=chain.third_columns())
     write_truth(folder / "chain_demo.json", {**chain.truth(), "source": "simulated (tools/maintain/make_demo.py)"})

@@ -10,6 +10,7 @@
 
 #define US_PER_S 1e6
 #define MS_PER_S 1e3
+#define US_PER_MS 1000
 #define PPM 1e6
 
 /* Repeated readings that are worth a word, if most are. */
@@ -112,7 +113,12 @@ void two_files_findings(const two_files_t *two, jcal_reason_t reason, check_find
     const bool wrong1 = say_repeated(two, 0u, &own) || say_times(two, 0u, &own);
     const bool wrong2 = say_repeated(two, 1u, &own) || say_times(two, 1u, &own);
     const bool has_lag = two_files_lag(two).known;
-    if (two->pairs == 0 && !wrong1 && !wrong2) {
+    if (two->left_out > 0) {
+        check_say(&own,
+                  "%" PRIu64 " of %" PRIu64 " readings of sensor 2 are left out, where the lag is not known to within 12 ms: there is too "
+                  "little motion, or a clock does not go evenly",
+                  two->left_out, two->readings[1]);
+    } else if (two->pairs == 0 && !wrong1 && !wrong2) {
         check_say(&own, "no reading of one file is near one of the other in time: less than 10 a second, or another time");
     }
     if (wrong1 || wrong2 || two->pairs == 0) {
@@ -150,16 +156,13 @@ void two_files_print(const two_files_t *two, FILE *file)
     if (!lag.known) {
         (void)fprintf(file, "  %-18s unknown\n", "lag of sensor 2");
     } else if (two->kind != TWO_FILES_GIVEN) {
+        const int64_t whole_us = US_PER_MS * (int64_t)llround((double)lag.lag_us / (double)US_PER_MS);
         char whole[32];
-        (void)fprintf(file, "  %-18s %.0f ms beyond that at the end, %s s in all, to within %.0f ms; taken off\n",
-                      "lag of sensor 2", (double)lag.beyond_us / MS_PER_S, time_text(lag.lag_us, whole),
+        (void)fprintf(file, "  %-18s %s s at the end, %+.0f ms beside that, to within %.0f ms; taken off\n",
+                      "lag of sensor 2", time_text(whole_us, whole), (double)lag.beyond_us / (double)US_PER_MS,
                       ceil(MS_PER_S * lag.bound_s));
         (void)fprintf(file, "  %-18s %+.0f ppm beside that of sensor 1, to within %.0f ppm; taken off\n", "clock of sensor 2",
                       PPM * lag.drift, ceil(PPM * lag.drift_bound));
-    }
-    if (two->left_out > 0) {
-        (void)fprintf(file, "  %-18s %" PRIu64 " readings of sensor 2, where the lag is not known to within 12 ms\n",
-                      "left out", two->left_out);
     }
     (void)fprintf(file, "  %-18s %" PRIu64 " and %" PRIu64 ", which make %" PRIu64 " pairs, one every 10 ms\n", "readings",
                   two->readings[0], two->readings[1], two->pairs);
