@@ -114,7 +114,7 @@ typedef struct {
     recording_row_t under_way[ROWS_UNDER_WAY]; /* rows that the hub has not told of yet */
     uint64_t sent;
     uint64_t answered;
-    check_t check; /* of the rows that the hub has told of, so that lines are those of `jointcal hinge` */
+    check_t check;   /* of the rows that the hub has told of, so that lines are those of `jointcal hinge` */
     lag_watch_t lag; /* of the same rows */
     bool output_failed;
     bool has_start;

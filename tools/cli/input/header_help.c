@@ -327,8 +327,7 @@ bool header_help(csv_t *csv, const header_names_t *names, char text[static HEADE
     text[0] = '\0';
     const bool note = strncasecmp(csv->cells[0].text, "sep=", 4) == 0;
     if (all_numbers(csv)) {
-        add(text, "no header line: the first line has numbers only; it must name the columns %s",
-            names->columns);
+        add(text, "no header line: the first line has numbers only; it must name the columns %s", names->columns);
         return true;
     }
     const char *separator = note ? NULL : separator_words(csv);

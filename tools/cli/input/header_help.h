@@ -11,8 +11,8 @@
 typedef struct {
     const char *const *names;
     size_t count;
-    const bool *found;  ///< Those that are there.
-    size_t needed;      ///< The first so many must be.
+    const bool *found;    ///< Those that are there.
+    size_t needed;        ///< The first so many must be.
     const char *columns;  ///< Those in short ...
     const char *where;    ///< ... and in which file they stand.
 } header_names_t;

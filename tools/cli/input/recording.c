@@ -117,11 +117,14 @@ static recording_event_t check_missing(recording_t *recording, size_t first_colu
     }
     const uint64_t line = recording->csv.cells[0].line;
     const bool one = recording->one != 0;
-    if (first_column == 0 && has_all(recording, one ? COLUMN_NAMES : ONE_NAMES,
-                                     one ? RECORDING_COLUMNS : RECORDING_ONE_COLUMNS)) {
+    if (first_column == 0 &&
+        has_all(recording, one ? COLUMN_NAMES : ONE_NAMES, one ? RECORDING_COLUMNS : RECORDING_ONE_COLUMNS)) {
         return bad(recording, line, 0, "%s", one ? TWO_SENSORS : ONE_SENSOR);
     }
-    const header_names_t ours = {names_of(recording), one ? RECORDING_ONE_COLUMNS : ALL_COLUMNS, recording->found, end,
+    const header_names_t ours = {names_of(recording),
+                                 one ? RECORDING_ONE_COLUMNS : ALL_COLUMNS,
+                                 recording->found,
+                                 end,
                                  one ? "t_s, gyr_x ... acc_z" : "t_s, gyr1_x ... acc2_z",
                                  one ? "one sensor in each file" : "both sensors in one file"};
     char help[HEADER_HELP_MAX];

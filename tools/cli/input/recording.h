@@ -34,13 +34,13 @@ typedef struct {
     recording_fault_t fault;
     size_t header_cells;
     uint64_t header_line;
-    bool has_orientations;   ///< The header names all of q1_w ... q2_z; with a third sensor those of q3 too.
-    bool want_orientations;  ///< Set after recording_open: read them, and complain about text in them.
-    check_t check;           ///< Watches the rows.
-    bool want_third;         /* set by recording_want_third */
-    bool want_sorted;        /* set by recording_want_sorted */
-    kept_rows_t kept;        /* with want_sorted */
-    int one;                 /* of a file with one sensor: whose it is, 1 or 2; else 0 */
+    bool has_orientations;      ///< The header names all of q1_w ... q2_z; with a third sensor those of q3 too.
+    bool want_orientations;     ///< Set after recording_open: read them, and complain about text in them.
+    check_t check;              ///< Watches the rows.
+    bool want_third;            /* set by recording_want_third */
+    bool want_sorted;           /* set by recording_want_sorted */
+    kept_rows_t kept;           /* with want_sorted */
+    int one;                    /* of a file with one sensor: whose it is, 1 or 2; else 0 */
     recording_source_t *source; /* of rows that no file of all sensors has; or null */
     void *source_context;
     bool found[RECORDING_ALL_COLUMNS];

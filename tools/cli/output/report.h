@@ -44,10 +44,10 @@ typedef struct {
 /// The lag of sensor 2 behind sensor 1.
 typedef struct {
     bool known;
-    int64_t lag_us;     ///< Sensor 2's times less those of sensor 1 at the same moment.
-    float bound_s;      ///< 95 %; NaN if it is given.
-    bool two_files;     ///< They have clocks of their own:
-    float drift;        ///< seconds a second by which that of sensor 2 is fast; NaN if it is not known.
+    int64_t lag_us;  ///< Sensor 2's times less those of sensor 1 at the same moment.
+    float bound_s;   ///< 95 %; NaN if it is given.
+    bool two_files;  ///< They have clocks of their own:
+    float drift;     ///< seconds a second by which that of sensor 2 is fast; NaN if it is not known.
 } report_lag_t;
 
 /// The head of a result and what the program knows besides.
@@ -62,9 +62,10 @@ typedef struct {
     int64_t ready_us;          ///< When it was entered first, as in the file.
     bool has_moved;            ///< A sensor has moved and the joint was not ready since ...
     int64_t moved_us;          ///< ... this time.
-    void (*print_more)(const void *context, FILE *file);  ///< Writes labelled lines on where the rows come from; or null.
-    const void *more;                                     ///< Its context.
-    float max_bound;           ///< What the bounds must be below, rad or m.
+    void (*print_more)(const void *context,
+                       FILE *file);  ///< Writes labelled lines on where the rows come from; or null.
+    const void *more;                ///< Its context.
+    float max_bound;                 ///< What the bounds must be below, rad or m.
 } report_t;
 
 /// False for the zeros that stand for an axis of which nothing is known.

@@ -21,9 +21,9 @@ typedef struct {
 
 /// Start from all zero: no lag, and nothing known.
 typedef struct {
-    double t0_s;     ///< Where the line stands on its points.
-    double lag0_s;   ///< Lag there.
-    double drift;    ///< Seconds a second: more than 0 if the second clock is fast.
+    double t0_s;    ///< Where the line stands on its points.
+    double lag0_s;  ///< Lag there.
+    double drift;   ///< Seconds a second: more than 0 if the second clock is fast.
     double drift_bound;
 
     /* Private. */

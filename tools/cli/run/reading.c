@@ -67,9 +67,8 @@ void reading_begin(reading_t *reading)
 void reading_advance(reading_t *reading)
 {
     const two_files_t *two = reading->two;
-    const uint64_t bytes = (two == NULL)
-                               ? reading->recording.csv.bytes
-                               : two->files[0].recording.csv.bytes + two->files[1].recording.csv.bytes;
+    const uint64_t bytes = (two == NULL) ? reading->recording.csv.bytes
+                                         : two->files[0].recording.csv.bytes + two->files[1].recording.csv.bytes;
     progress_show(&reading->progress, bytes);
 }
 

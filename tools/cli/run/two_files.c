@@ -59,8 +59,9 @@ static recording_event_t open_files(two_files_t *two)
     for (unsigned k = 0; k < 2u && event == RECORDING_ROW && !two->config.has_lag; k++) {
         if (!two->files[k].input.again) {
             two->at_fault = k;
-            return recording_refuse(&two->files[k].recording,
-                                    "two files are read several times, which this one cannot be: give the lag by --lag");
+            return recording_refuse(
+                &two->files[k].recording,
+                "two files are read several times, which this one cannot be: give the lag by --lag");
         }
     }
     return event;

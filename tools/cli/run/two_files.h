@@ -29,22 +29,22 @@ typedef struct {
 
 /// How times of the files belong together.
 typedef enum {
-    TWO_FILES_GIVEN,       ///< By the lag that was given.
-    TWO_FILES_ONE_CLOCK,   ///< They are about the same.
+    TWO_FILES_GIVEN,         ///< By the lag that was given.
+    TWO_FILES_ONE_CLOCK,     ///< They are about the same.
     TWO_FILES_ONE_BEGINNING  ///< Both files begin at about the same moment.
 } two_files_kind_t;
 
 typedef struct {
     two_files_config_t config;
     two_files_kind_t kind;
-    int64_t base_us;     ///< Sensor 2's times less sensor 1's, by that; what else there is of a lag is in `line`.
-    clock_line_t line;   ///< Over seconds since sensor 1's first time, as sensor 2's clock has them less base_us.
-    bool moved;          ///< There was motion from which the lag could be known.
+    int64_t base_us;    ///< Sensor 2's times less sensor 1's, by that; what else there is of a lag is in `line`.
+    clock_line_t line;  ///< Over seconds since sensor 1's first time, as sensor 2's clock has them less base_us.
+    bool moved;         ///< There was motion from which the lag could be known.
     uint64_t readings[2];
     uint64_t repeated[2];  ///< Of these, those that repeat the one before.
     uint64_t pairs;
-    uint64_t left_out;   ///< Readings of sensor 2 where the lag is not known well enough.
-    unsigned at_fault;   ///< Number of the file, 0 or 1, that could not be read on.
+    uint64_t left_out;  ///< Readings of sensor 2 where the lag is not known well enough.
+    unsigned at_fault;  ///< Number of the file, 0 or 1, that could not be read on.
 
     /* Private. */
     sensor_file_t files[2];
@@ -62,10 +62,10 @@ typedef struct {
 /// What the lag is at the time of the last pair.
 typedef struct {
     bool known;
-    int64_t lag_us;      ///< Sensor 2's times, as in its file, less sensor 1's.
-    int64_t beyond_us;   ///< The part of it beyond base_us.
-    double bound_s;      ///< 95 %; 0 if the lag is given.
-    double drift;        ///< Seconds a second; more than 0 if sensor 2's clock is fast.
+    int64_t lag_us;     ///< Sensor 2's times, as in its file, less sensor 1's.
+    int64_t beyond_us;  ///< The part of it beyond base_us.
+    double bound_s;     ///< 95 %; 0 if the lag is given.
+    double drift;       ///< Seconds a second; more than 0 if sensor 2's clock is fast.
     double drift_bound;
 } two_files_lag_t;
 

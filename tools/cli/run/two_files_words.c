@@ -79,13 +79,14 @@ static void say_no_lag(const two_files_t *two, jcal_reason_t reason, check_findi
 {
     check_findings_t own = {0};
     if (two->moved) {
-        check_say(&own,
-                  "the lag of sensor 2 was not found within 0.25 s of %s: do these sensors share a joint? --lag S gives "
-                  "the lag, say of a tap that both files show",
-                  (two->kind == TWO_FILES_ONE_CLOCK) ? "the times as they are" : "both files beginning at once");
+        check_say(
+            &own,
+            "the lag of sensor 2 was not found within 0.25 s of %s: do these sensors share a joint? --lag S gives "
+            "the lag, say of a tap that both files show",
+            (two->kind == TWO_FILES_ONE_CLOCK) ? "the times as they are" : "both files beginning at once");
     } else {
         check_say(&own, "too little motion to find the lag of sensor 2: it takes about 20 s of lively motion of both "
-                            "segments; or --lag S gives it");
+                        "segments; or --lag S gives it");
     }
     if (findings->explains || are_wrong(reason)) {
         check_say(findings, "%s", own.sentences[0]);
@@ -100,7 +101,8 @@ static bool say_repeated(const two_files_t *two, unsigned k, check_findings_t *f
     const bool mostly = 2u * two->repeated[k] > two->readings[k];
     if (mostly && two->repeated[k] > REPEATED) {
         check_say(findings,
-                  "%.80s: %" PRIu64 " of %" PRIu64 " readings repeat the one before: the sensor stands, or its packets are lost",
+                  "%.80s: %" PRIu64 " of %" PRIu64
+                  " readings repeat the one before: the sensor stands, or its packets are lost",
                   short_name(two, k), two->repeated[k], two->readings[k]);
         return two->pairs == 0;
     }
@@ -115,11 +117,13 @@ void two_files_findings(const two_files_t *two, jcal_reason_t reason, check_find
     const bool has_lag = two_files_lag(two).known;
     if (two->left_out > 0) {
         check_say(&own,
-                  "%" PRIu64 " of %" PRIu64 " readings of sensor 2 are left out, where the lag is not known to within 12 ms: there is too "
+                  "%" PRIu64 " of %" PRIu64
+                  " readings of sensor 2 are left out, where the lag is not known to within 12 ms: there is too "
                   "little motion, or a clock does not go evenly",
                   two->left_out, two->readings[1]);
     } else if (two->pairs == 0 && !wrong1 && !wrong2) {
-        check_say(&own, "no reading of one file is near one of the other in time: less than 10 a second, or another time");
+        check_say(&own,
+                  "no reading of one file is near one of the other in time: less than 10 a second, or another time");
     }
     if (wrong1 || wrong2 || two->pairs == 0) {
         findings->explains = false; /* that there are no pairs says less */
@@ -161,9 +165,9 @@ void two_files_print(const two_files_t *two, FILE *file)
         (void)fprintf(file, "  %-18s %s s at the end, %+.0f ms beside that, to within %.0f ms; taken off\n",
                       "lag of sensor 2", time_text(whole_us, whole), (double)lag.beyond_us / (double)US_PER_MS,
                       ceil(MS_PER_S * lag.bound_s));
-        (void)fprintf(file, "  %-18s %+.0f ppm beside that of sensor 1, to within %.0f ppm; taken off\n", "clock of sensor 2",
-                      PPM * lag.drift, ceil(PPM * lag.drift_bound));
+        (void)fprintf(file, "  %-18s %+.0f ppm beside that of sensor 1, to within %.0f ppm; taken off\n",
+                      "clock of sensor 2", PPM * lag.drift, ceil(PPM * lag.drift_bound));
     }
-    (void)fprintf(file, "  %-18s %" PRIu64 " and %" PRIu64 ", which make %" PRIu64 " pairs, one every 10 ms\n", "readings",
-                  two->readings[0], two->readings[1], two->pairs);
+    (void)fprintf(file, "  %-18s %" PRIu64 " and %" PRIu64 ", which make %" PRIu64 " pairs, one every 10 ms\n",
+                  "readings", two->readings[0], two->readings[1], two->pairs);
 }
