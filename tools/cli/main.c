@@ -75,18 +75,20 @@ static const struct argp PARSER = {
     .args_doc =
         "angles RECORDING.csv --joint KIND [OPTION...]\nball RECORDING.csv [OPTION...]\ncenter RECORDING.csv [OPTION...]\nchain RECORDING.csv [OPTION...]\ncheck RECORDING.csv [OPTION...]\nhinge RECORDING.csv [OPTION...]\nstream RECORDING.csv --to HUB [OPTION...]\n"
         "two-dof RECORDING.csv [OPTION...]",
-    .doc = "Finds out how the IMUs of a recording sit on the two sides of a joint.\v"
-           "Subcommands:\n"
-           "  angles   the angles of a joint, from these axes\n"
-           "  ball     how both sensors of a person's hip or shoulder stand to each other, and the joint's centre\n"
-           "  center   where both sensors sit relative to the centre of a joint\n"
-           "  chain    the same for hip and knee together, three sensors\n"
-           "  check    what the sensors do, and what is wrong with a recording as a whole\n"
-           "  hinge    both axes of a joint with one axis, like a knee or a finger joint\n"
-           "  stream   plays a recording to a hub and writes what the hub finds\n"
-           "  two-dof  both axes of a joint with two axes, like elbow and forearm, and the heading offset\n"
-           "\n"
-           "'jointcal hinge --help' and so on tell all about them.",
+    .doc =
+        "Finds out how the IMUs of a recording sit on the two sides of a joint.\v"
+        "Subcommands:\n"
+        "  angles   the angles of a joint, from these axes\n"
+        "  ball     how both sensors of a person's hip or shoulder stand to each other, and the joint's centre\n"
+        "  center   where both sensors sit relative to the centre of a joint\n"
+        "  chain    the same for hip and knee together, three sensors\n"
+        "  check    what the sensors do, and what is wrong with a recording as a whole\n"
+        "  hinge    both axes of a joint with one axis, like a knee or a finger joint\n"
+        "  stream   plays a recording to a hub and writes what the hub finds\n"
+        "  two-dof  both axes of a joint with two axes, like elbow and forearm, and the heading offset\n"
+        "\n"
+        "'jointcal hinge --help' and so on tell all about them. angles, ball, center, hinge and two-dof also take two files, one of each "
+        "sensor.",
 };
 
 int main(int argc, char **argv)

@@ -42,7 +42,7 @@ ELBOW = PersonSpec((("walk", 6.0), ("bend", 13.0), ("turn", 13.0)), "elbow", 50.
 TWO_DOF = TwoDofSpec(motions=(("rest", 4.0), ("hinge", 6.0), ("free", 28.0)),
                      rate_hz=50.0, seed=2022, carrying_deg=8.0, acc_bias=0.1, gyr_bias_deg_s=0.1, soft_tissue_deg=0.3)
 CHAIN = ChainSpec(type=2, seconds=30.0, rate_hz=50.0, seed=2015, noise_scale=0.3, acc_bias=0.1, gyr_bias_deg_s=0.1)
-TWO_FILES = PersonSpec((("stand", 3.0), ("walk", 20.0), ("squat", 20.0)), rate_hz=100.0, seed=2027)
+TWO_FILES = PersonSpec((("stand", 3.0), ("walk", 20.0), ("random", 20.0)), rate_hz=100.0, seed=2027)
 CLOCKS = (Clock(rate_hz=50.0), Clock(rate_hz=40.0, begin_s=0.16, offset_s=3600.0, lag_s=0.12, drift_ppm=200.0))
 DIGITS = 7  # few enough that no platform's last bit shows
 

@@ -34,7 +34,8 @@ static void settle(struct argp_state *state, const parse_t *parse)
     if (common->n_max > 0 && common->engine == JCAL_ENGINE_STREAM) {
         argp_error(state, "%s", COMMON_N_MAX_REFUSAL);
     }
-    if (common->second != NULL && strcmp(common->recording, "-") == 0 && strcmp(common->second, "-") == 0) {
+    if (common->recording != NULL && common->second != NULL && strcmp(common->recording, "-") == 0 &&
+        strcmp(common->second, "-") == 0) {
         argp_error(state, "two files, and - is standard input, which is one");
     }
     if (common->has_lag && common->second == NULL) {

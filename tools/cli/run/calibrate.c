@@ -51,7 +51,7 @@ static void look_at_lag(session_t *session)
                               .lag_us = found.lag_us,
                               .bound_s = given ? NAN : (float)found.bound_s,
                               .two_files = true,
-                              .drift = given ? NAN : (float)found.drift};
+                              .drift = found.has_drift ? (float)found.drift : NAN};
         return;
     }
     *lag = lag_watch_report(&session->lag, &session->reading.recording.check, &session->report.findings);

@@ -74,14 +74,23 @@ static void learn(lag_watch_t *watch, const jcal_pair_t *pair)
     (void)jcal_pairing_align(&watch->pairing, &watch->lag);
 }
 
-/* A reading that is equal in all six numbers to the one before. */
+static bool same(jcal_vec3_t a, jcal_vec3_t b)
+{
+    return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+bool lag_watch_same(const jcal_imu_t *a, const jcal_imu_t *b)
+{
+    return same(a->gyr_rad_s, b->gyr_rad_s) && same(a->acc_m_s2, b->acc_m_s2);
+}
+
 static bool repeats(lag_watch_t *watch, unsigned which, const jcal_imu_t *imu)
 {
     jcal_imu_t *last = &watch->last[which - 1u];
-    const bool same = watch->has_last[which - 1u] && memcmp(last, imu, sizeof *imu) == 0;
+    const bool again = watch->has_last[which - 1u] && lag_watch_same(last, imu);
     *last = *imu;
     watch->has_last[which - 1u] = true;
-    return same;
+    return again;
 }
 
 void lag_watch_push(lag_watch_t *watch, unsigned which, const jcal_reading_t *reading)

@@ -42,6 +42,9 @@ bool lag_watch_begin(lag_watch_t *watch);
 /// Forgets the lag and begins to look for it anew; the sensors' orientations stay. False as above.
 bool lag_watch_again(lag_watch_t *watch);
 
+/// True of two readings that are equal in all six numbers, as where a lost packet is written as the one before.
+bool lag_watch_same(const jcal_imu_t *a, const jcal_imu_t *b);
+
 /// Takes in a reading of sensor `which`, 1 or 2; both sensors' readings come about in the order of their times.
 void lag_watch_push(lag_watch_t *watch, unsigned which, const jcal_reading_t *reading);
 

@@ -212,7 +212,7 @@ static void take_reading(two_files_t *two, unsigned which, const jcal_reading_t 
 {
     jcal_imu_t *last = &two->last[which - 1u];
     two->readings[which - 1u]++;
-    if (two->readings[which - 1u] > 1u && memcmp(last, &reading->imu, sizeof *last) == 0) {
+    if (two->readings[which - 1u] > 1u && lag_watch_same(last, &reading->imu)) {
         two->repeated[which - 1u]++;
     } else if (which == 2u && !may_pair(two, reading)) {
         two->left_out++;

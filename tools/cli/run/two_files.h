@@ -62,11 +62,12 @@ typedef struct {
 /// What the lag is at the time of the last pair.
 typedef struct {
     bool known;
-    int64_t lag_us;     ///< Sensor 2's times, as in its file, less sensor 1's.
-    int64_t beyond_us;  ///< The part of it beyond base_us.
-    double bound_s;     ///< 95 %; 0 if the lag is given.
-    double drift;       ///< Seconds a second; more than 0 if sensor 2's clock is fast.
-    double drift_bound;
+    int64_t lag_us;      ///< Sensor 2's times, as in its file, less sensor 1's.
+    int64_t beyond_us;   ///< The part of it beyond base_us.
+    double bound_s;      ///< 95 %; 0 if the lag is given.
+    bool has_drift;      ///< The lag was found more than once.
+    double drift;        ///< Seconds a second; more than 0 if sensor 2's clock is fast.
+    double drift_bound;  ///< 95 %.
 } two_files_lag_t;
 
 /// Opens both files and finds the lag. RECORDING_ROW: pairs can be read; else what is wrong is in the file `at_fault`.

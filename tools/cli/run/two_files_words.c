@@ -27,6 +27,7 @@ two_files_lag_t two_files_lag(const two_files_t *two)
     lag.beyond_us = (int64_t)llround(US_PER_S * clock_line_at(&two->line, t_s));
     lag.lag_us += lag.beyond_us;
     lag.bound_s = clock_line_bound(&two->line, t_s);
+    lag.has_drift = two->line.count > 1;
     lag.drift = two->line.drift;
     lag.drift_bound = two->line.drift_bound;
     return lag;
@@ -165,6 +166,8 @@ void two_files_print(const two_files_t *two, FILE *file)
         (void)fprintf(file, "  %-18s %s s at the end, %+.0f ms beside that, to within %.0f ms; taken off\n",
                       "lag of sensor 2", time_text(whole_us, whole), (double)lag.beyond_us / (double)US_PER_MS,
                       ceil(MS_PER_S * lag.bound_s));
+    }
+    if (lag.has_drift) {
         (void)fprintf(file, "  %-18s %+.0f ppm beside that of sensor 1, to within %.0f ppm; taken off\n",
                       "clock of sensor 2", PPM * lag.drift, ceil(PPM * lag.drift_bound));
     }
