@@ -39,6 +39,7 @@ static void follow_motion(lag_watch_t *watch)
     const double since_us = (double)(int64_t)(watch->now_us - watch->begun_us);
     if (result.motion_s >= before_s) {
         watch->weighted_us += (double)(result.motion_s - before_s) * since_us;
+        watch->all_motion_s += result.motion_s - before_s;
     } else if (result.motion_s > FADED_SHARE * before_s) {
         watch->weighted_us *= (double)(result.motion_s / before_s);
     } else {
@@ -46,6 +47,7 @@ static void follow_motion(lag_watch_t *watch)
     }
     if (result.lag_known && result.bound_s != watch->bound_s && result.motion_s > 0.0f) {
         const double middle_us = watch->weighted_us / (double)result.motion_s; /* judged just now */
+        watch->left = result.left;
         watch->at_us = watch->begun_us + (uint64_t)(int64_t)middle_us;
     }
     watch->bound_s = result.bound_s;
@@ -124,6 +126,8 @@ lag_found_t lag_watch_found(const lag_watch_t *watch)
                          .bound_s = (double)result.bound_s,
                          .at_us = watch->at_us,
                          .spent_s = (double)(int64_t)(watch->now_us - watch->anew_us) / US_PER_S,
+                         .left = (double)watch->left,
+                         .all_motion_s = (double)watch->all_motion_s,
                          .motion_s = (double)watch->most_motion_s};
 }
 

@@ -20,6 +20,8 @@ typedef struct {
     float most_motion_s; /* the most that there ever was */
     double weighted_us;  /* times, by motion, of what is in the sums */
     float bound_s;       /* of what is known, by which a new judgement is told */
+    float left;          /* what no lag explains, by the last one */
+    float all_motion_s;  /* that ever went into sums */
     uint64_t at_us;      /* the middle of the motion of the last one */
     uint64_t begun_us;   /* time of the first pair, of which those count */
     uint64_t anew_us;    /* time of the first pair since the estimator began anew */
@@ -31,9 +33,11 @@ typedef struct {
     bool known;
     double lag_s;  ///< Sensor 2's times are late by it.
     double bound_s;
-    uint64_t at_us;   ///< The middle of the motion that it is from.
-    double spent_s;   ///< Time since the estimator began anew.
-    double motion_s;  ///< Most motion that any estimate had.
+    uint64_t at_us;       ///< The middle of the motion that it is from.
+    double spent_s;       ///< Time since the estimator began anew.
+    double left;          ///< Share of the motion of the joint's centre that it does not explain.
+    double all_motion_s;  ///< Motion that was seen in all.
+    double motion_s;      ///< Most motion that any estimate had.
 } lag_found_t;
 
 /// Prepares. False if the library refuses, which would be a mistake of this program.

@@ -3,6 +3,7 @@
 #include "run/two_files.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Time of sensor 1's first reading for the library: a common time of every pairing; readings of sensor 2 before it have one, too. */
@@ -21,7 +22,23 @@
 /* Motion that the estimator needs, s. */
 #define MOTION_S 8.0
 
+/* Lags that are tried: steps that the estimator reaches over, how many on either side, and for how much motion each, s. */
+#define STEP_US INT64_C(400000)
+#define STEPS 5
+#define TRY_MOTION_S 60.0
+
+/* Lags that are nearer than this are one; another one must leave so many times as much, beside a floor. */
+#define SAME_US 50000
+#define RIVAL_TIMES 2.0
+#define LEFT_FLOOR 0.005
+
 #define US_PER_S 1e6
+
+/* A lag that fits, beyond base_us, and what it leaves. */
+typedef struct {
+    int64_t lag_us;
+    double left;
+} candidate_t;
 
 /* First and last time of a file. */
 typedef struct {
@@ -87,7 +104,7 @@ static recording_event_t read_span(two_files_t *two, unsigned k, span_t *span)
 /* Time of sensor 2's reading on sensor 1's clock, since start_us. */
 static int64_t aligned_us(const two_files_t *two, int64_t t_us)
 {
-    const int64_t since_us = t_us - two->base_us - two->start_us;
+    const int64_t since_us = t_us - two->base_us - two->rough_us - two->start_us;
     return since_us - (int64_t)llround(US_PER_S * clock_line_at(&two->line, (double)since_us / US_PER_S));
 }
 
@@ -152,6 +169,65 @@ static recording_event_t find_base(two_files_t *two)
     return RECORDING_ROW;
 }
 
+/* Looks for a lag around one of the steps; found->known is false if there is none. */
+static recording_event_t try_step(two_files_t *two, int64_t step_us, lag_found_t *found)
+{
+    jcal_reading_t reading;
+    unsigned which = 0u;
+    two->rough_us = step_us;
+    *found = (lag_found_t){.known = false};
+    recording_event_t event = lag_watch_begin(&two->watch) ? open_files(two) : RECORDING_FAILED;
+    while (event == RECORDING_ROW && !found->known && found->all_motion_s < TRY_MOTION_S) {
+        event = next_reading(two, &which, &reading);
+        if (event == RECORDING_ROW) {
+            lag_watch_push(&two->watch, which, &reading);
+            *found = lag_watch_found(&two->watch);
+        }
+    }
+    if (event == RECORDING_BAD || event == RECORDING_FAILED) {
+        return event;
+    }
+    two->moved = two->moved || found->motion_s >= MOTION_S;
+    close_files(two);
+    return RECORDING_ROW;
+}
+
+/* Puts a candidate beside the best one and the best other one. */
+static void compare(candidate_t candidate, candidate_t *best, candidate_t *rival)
+{
+    const bool is_same = llabs(candidate.lag_us - best->lag_us) < SAME_US;
+    if (candidate.left < best->left) {
+        *rival = is_same ? *rival : *best;
+        *best = candidate;
+    } else if (!is_same && candidate.left < rival->left) {
+        *rival = candidate;
+    } else {
+        /* nothing new */
+    }
+}
+
+/* Finds the lag roughly. */
+static recording_event_t find_rough(two_files_t *two)
+{
+    candidate_t best = {INT64_MAX / 2, HUGE_VAL};
+    candidate_t rival = best;
+    recording_event_t event = RECORDING_ROW;
+    for (int64_t step = -STEPS; step <= STEPS && event == RECORDING_ROW; step++) {
+        lag_found_t found;
+        event = try_step(two, step * STEP_US, &found);
+        if (event == RECORDING_ROW && found.known) {
+            const int64_t lag_us = step * STEP_US + (int64_t)llround(US_PER_S * found.lag_s);
+            compare((candidate_t){lag_us, found.left}, &best, &rival);
+        }
+    }
+    two->found = best.left < HUGE_VAL;
+    two->repeats = two->found && rival.left < RIVAL_TIMES * fmax(best.left, LEFT_FLOOR);
+    two->rough_us = (two->found && !two->repeats) ? best.lag_us : 0;
+    two->rival_us = rival.lag_us;
+    two->best_us = best.lag_us;
+    return event;
+}
+
 /* Makes a point of the line of what the estimator knows, if it is good enough or nothing better will come. */
 static bool take_point(two_files_t *two, bool at_end)
 {
@@ -191,6 +267,9 @@ recording_event_t two_files_open(two_files_t *two, const two_files_config_t *con
     two->base_us = config->lag_us;
     recording_event_t event = config->has_lag ? RECORDING_ROW : find_base(two);
     if (event == RECORDING_ROW && !config->has_lag) {
+        event = find_rough(two);
+    }
+    if (event == RECORDING_ROW && two->found && !two->repeats) {
         event = find_line(two);
     }
     if (event == RECORDING_ROW) {

@@ -2,10 +2,12 @@
 /// @file
 /// Two files of one sensor each, with clocks of their own, as one recording of pairs.
 ///
-/// Files are read three times. First for their spans: clocks whose times overlap for at least half of the shorter file are taken for one
-/// clock that is a little off, others to begin at the same moment. Then for the lag: each time the estimator (run/lag_watch.h) knows it
-/// that is a point of a line over time (run/clock_line.h), and it begins anew. Then for the pairs, with the line taken off the times of
-/// sensor 2; where it is not known well enough there are none. If the lag is given nothing has to be found, and once is enough.
+/// Files are read several times. First for their spans: clocks whose times overlap for at least half of the shorter file are taken for one
+/// clock that is a little off, others to begin at the same moment. Then for the lag, roughly: the estimator (run/lag_watch.h) looks at
+/// steps of 0.4 s within 2 s, for 60 s of motion; motion that repeats itself, as gait, may fit at several of them, and then what is left
+/// must tell. Then for the lag over time: each time the estimator knows it is a point of a line (run/clock_line.h), and it begins anew. Then
+/// for the pairs, with the line taken off the times of sensor 2; where it is not known well enough there are none. If the lag is given
+/// nothing has to be found, and once is enough.
 ///
 /// Times of pairs are those of sensor 1's file, every 10 ms from its first one on.
 #ifndef JCAL_CLI_RUN_TWO_FILES_H
@@ -37,9 +39,13 @@ typedef enum {
 typedef struct {
     two_files_config_t config;
     two_files_kind_t kind;
-    int64_t base_us;    ///< Sensor 2's times less sensor 1's, by that; what else there is of a lag is in `line`.
+    int64_t rough_us;   ///< What was found of the lag beyond base_us before the line was drawn.
+    int64_t base_us;    ///< Sensor 2's times less sensor 1's, by that; what else there is of a lag is in the next two.
     clock_line_t line;  ///< Over seconds since sensor 1's first time, as sensor 2's clock has them less base_us.
-    bool moved;         ///< There was motion from which the lag could be known.
+    bool found;         ///< A lag fits.
+    int64_t best_us, rival_us;  ///< Those that fit best, beyond base_us, if they do.
+    bool repeats;               ///< Several lags fit, as in motion that repeats itself; then none is known.
+    bool moved;                 ///< There was motion from which the lag could be known.
     uint64_t readings[2];
     uint64_t repeated[2];  ///< Of these, those that repeat the one before.
     uint64_t pairs;

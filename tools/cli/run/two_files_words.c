@@ -24,7 +24,7 @@ two_files_lag_t two_files_lag(const two_files_t *two)
     }
     const double t_s = (double)two->now_us / US_PER_S;
     lag.known = two->line.count > 0;
-    lag.beyond_us = (int64_t)llround(US_PER_S * clock_line_at(&two->line, t_s));
+    lag.beyond_us = two->rough_us + (int64_t)llround(US_PER_S * clock_line_at(&two->line, t_s));
     lag.lag_us += lag.beyond_us;
     lag.bound_s = clock_line_bound(&two->line, t_s);
     lag.has_drift = two->line.count > 1;
@@ -76,15 +76,25 @@ static void put_first(check_findings_t *findings, const check_findings_t *first,
     findings->reason = reason;
 }
 
+static const char *assumed(const two_files_t *two)
+{
+    return (two->kind == TWO_FILES_ONE_CLOCK) ? "the times as they are" : "both files beginning at once";
+}
+
 static void say_no_lag(const two_files_t *two, jcal_reason_t reason, check_findings_t *findings)
 {
     check_findings_t own = {0};
-    if (two->moved) {
+    if (two->repeats) {
         check_say(
             &own,
-            "the lag of sensor 2 was not found within 0.25 s of %s: do these sensors share a joint? --lag S gives "
-            "the lag, say of a tap that both files show",
-            (two->kind == TWO_FILES_ONE_CLOCK) ? "the times as they are" : "both files beginning at once");
+            "the motion repeats itself: lags of sensor 2 of %.2f and %.2f s, beside %s, fit about equally; --lag S gives the lag, say "
+            "of a tap that both files show",
+            (double)two->best_us / US_PER_S, (double)two->rival_us / US_PER_S, assumed(two));
+    } else if (two->moved) {
+        check_say(&own,
+                  "the lag of sensor 2 was not found within 2 s of %s: do these sensors share a joint? --lag S gives "
+                  "the lag, say of a tap that both files show",
+                  assumed(two));
     } else {
         check_say(&own, "too little motion to find the lag of sensor 2: it takes about 20 s of lively motion of both "
                         "segments; or --lag S gives it");
