@@ -64,7 +64,7 @@ typedef struct {
 #define COMMON_TWO_FILES                                                                                                                  \
     "Two files are one sensor's each, in the columns t_s, gyr_x, gyr_y, gyr_z, acc_x, acc_y, acc_z, with clocks and rates of their own, " \
     "25 to 400 rows a second. They need not have begun together, but then their times must be about the same; files with other times "    \
-    "are taken to begin at once. What is left of a lag, up to 0.25 s, and of a drift, up to 500 ppm, is found from the motion and taken " \
+    "are taken to begin at once. What is left of a lag, up to 2 s, and of a drift, up to 500 ppm, is found from the motion and taken "    \
     "off; without it nothing is called ready, unless --lag gives it.\n\n"
 #define COMMON_JSON_HELP "Write JSON Lines instead of text"
 #define COMMON_SIGN_HELP                                                                                               \

@@ -12,6 +12,7 @@ import numpy as np
 
 from ..recordings import Recording, write_csv
 from ..simulate import HingeSpec, simulate_hinge
+from ..simulate_people import PersonSpec, simulate_person
 from ..two_files import Clock, lag_s, split, write
 from .angles import program
 from .harness import Report, Settings, median, number, percent, quantile, run_jobs
@@ -20,14 +21,16 @@ from .judge import RIG_HINGES, available, cut, line_angle_deg, nominal_axes, rec
 TITLE = "Two files with clocks of their own"
 PEOPLE = ("people_knee_long_L1", "people_knee_long_R1", "human_knee_left", "human_elbow_right", "knee_drop")
 PART_S = 60.0
-STARTS, SIMULATIONS, UNRELATED = 12, 60, 400
-LAG_MAX_S, DRIFT_MAX_PPM, JITTER_S, LOSS = 0.22, 500.0, 0.002, 0.05
-LAG_LIMIT_MS, OVER_MAX, FALSE_DEG, COVERAGE = 3.0, 0.05, 3.0, 0.95
+STARTS, SIMULATIONS, UNRELATED, GAIT = 8, 40, 400, 20
+GAIT_KINDS = (("knee", "walk"), ("ankle", "walk"), ("knee", "run"))
+FAR_S = (0.35, 3.0)  # the search reaches to 2.2 s
+LAG_MAX_S, APART_MAX_S, DRIFT_MAX_PPM, JITTER_S, LOSS = 0.22, 2.0, 500.0, 0.002, 0.05
+LAG_LIMIT_MS, OVER_MAX, FALSE_DEG, COVERAGE, WRONG_S = 3.0, 0.05, 3.0, 0.95, 0.02
 ONE_FILE, IN_STEP = "one file, as it is", "two files, in step"
 ALL = {"drift": True, "jitter": True}
 # What happens to sensor 2, and its readings a second where they are not its own.
 CASES: dict[str, dict] = {
-    ONE_FILE: {"lag": False}, IN_STEP: {"lag": False}, "lag": {}, "lag, drift": {"drift": True}, "lag, drift, jitter, losses": ALL,
+    ONE_FILE: {"lag": False}, IN_STEP: {"lag": False}, "lag": {}, "begun apart": {"apart": True}, "lag, drift": {"drift": True}, "lag, drift, jitter, losses": ALL,
     **{f"the same, sensor 2 at {rate:g} Hz": ALL | {"rate_hz": rate} for rate in (25.0, 60.0, 200.0, 400.0)},
 }
 
@@ -79,7 +82,8 @@ def errors_of(line: dict, truth: tuple[np.ndarray, np.ndarray]) -> tuple[float, 
 def clocks_of(case: str, rng: np.random.Generator) -> tuple[Clock, Clock]:
     what = CASES[case]
     jitter_s, loss = (JITTER_S, LOSS) if what.get("jitter") else (0.0, 0.0)
-    late_s = float(rng.uniform(-LAG_MAX_S, LAG_MAX_S)) if what.get("lag", True) else 0.0
+    most_s = APART_MAX_S if what.get("apart") else LAG_MAX_S
+    late_s = float(rng.uniform(-most_s, most_s)) if what.get("lag", True) else 0.0
     drift_ppm = float(rng.uniform(-DRIFT_MAX_PPM, DRIFT_MAX_PPM)) if what.get("drift") else 0.0
     # Readings of different sensors are not of the same moments.
     begin_s = float(rng.uniform(0.0, 0.01)) if "rate_hz" in what else 0.0
@@ -143,6 +147,20 @@ def measure_unrelated(job: tuple[tuple[str, ...], int]) -> tuple[bool, bool]:
     return any(line["lag_s"] is not None for line in lines), any(line["status"] == "ready" for line in lines)
 
 
+def measure_gait(job: tuple[str, str, int]) -> tuple[bool, bool]:
+    """A person whose motion repeats itself, files that begin further apart than a lag: whether a lag was told, and whether it is wrong."""
+    joint, activity, seed = job
+    rng = np.random.default_rng([4, seed])
+    clocks = (Clock(), Clock(lag_s=float(rng.choice([-1.0, 1.0]) * rng.uniform(*FAR_S))))
+    rec = simulate_person(PersonSpec(((activity, PART_S),), joint, seed=seed))
+    with tempfile.TemporaryDirectory() as folder:
+        files = [Path(folder) / name for name in ("one.csv", "two.csv")]
+        for rows, file in zip(split(rec, clocks, rng), files, strict=True):
+            write(file, rows)
+        told_s = said(*files)[-1]["lag_s"]
+    return told_s is not None, told_s is not None and abs(told_s - lag_s(clocks, 0.0)) > WRONG_S
+
+
 def apart_deg(one: Outcome, other: Outcome) -> float:
     """The larger angle between the axes of both."""
     if None in (*one.axes, *other.axes):
@@ -171,7 +189,7 @@ def measure(settings: Settings, report: Report) -> None:
     runs = run_jobs(measure_part, jobs, "recordings", settings)
     runs += run_jobs(measure_simulated, list(range(settings.count(SIMULATIONS, 2))), "simulated", settings)
     report.text(f"Parts of {PART_S:g} s of recordings of hinges, and simulated hinges of 40 s, written as one file and split into two. Lag: the times "
-                f"of sensor 2 are wrong by up to {1e3 * LAG_MAX_S:g} ms, both ways; drift: by up to {DRIFT_MAX_PPM:g} ppm more; jitter: {1e3 * JITTER_S:g} ms "
+                f"of sensor 2 are wrong by up to {1e3 * LAG_MAX_S:g} ms, both ways; begun apart: by up to {APART_MAX_S:g} s; drift: by up to {DRIFT_MAX_PPM:g} ppm more; jitter: {1e3 * JITTER_S:g} ms "
                 f"rms in the times of both sensors; losses: {100 * LOSS:g} % of the readings of both. Other rates by interpolation. Everything else is "
                 "the recording. Lag error: at the end; what the recording's own sensors are out of step by is in it, and a bound of one file is not "
                 "told. Error and coverage: both axes, at the end, of those that are ready. Beside: the larger angle between the axes of both files "
@@ -186,6 +204,10 @@ def measure(settings: Settings, report: Report) -> None:
         report.text(f"Unrelated: a sensor of one of these recordings beside one of another, {PART_S:g} s.")
         report.require_none("unrelated files whose lag was told", sum(told for told, _ in apart), len(apart))
         report.require_none("unrelated files that were ever ready", sum(ready for _, ready in apart), len(apart))
+    gait = run_jobs(measure_gait, [(*kind, seed) for kind in GAIT_KINDS for seed in range(settings.count(GAIT, 1))], "gait", settings)
+    report.text(f"Gait: simulated people who walk or run, {PART_S:g} s, files {FAR_S[0]:g} to {FAR_S[1]:g} s apart, which is more than the search "
+                f"reaches in part. A lag is told in {percent(sum(told for told, _ in gait), len(gait))} of {len(gait)}.")
+    report.require_none(f"lags of gait that are wrong by more than {1e3 * WRONG_S:g} ms", sum(wrong for _, wrong in gait), len(gait))
     split_runs = [o for run in runs for o in run[1:]]
     known = [o for o in split_runs if o.has_lag]
     true = [o for o in split_runs if o.kind != "people"]
