@@ -185,9 +185,10 @@ def row_of(kind: str, case: str, runs: list[list[Outcome]]) -> list:
 
 def measure(settings: Settings, report: Report) -> None:
     starts = settings.count(STARTS, 1)
-    jobs = [(name, k, starts) for name in available(*RIG_HINGES, *PEOPLE) for k in range(starts)]
+    names = available(*RIG_HINGES[: 1 if settings.quick else None], *PEOPLE[: 1 if settings.quick else None])
+    jobs = [(name, k, starts) for name in names for k in range(starts)]
     runs = run_jobs(measure_part, jobs, "recordings", settings)
-    runs += run_jobs(measure_simulated, list(range(settings.count(SIMULATIONS, 2))), "simulated", settings)
+    runs += run_jobs(measure_simulated, list(range(settings.count(SIMULATIONS, 1))), "simulated", settings)
     report.text(f"Parts of {PART_S:g} s of recordings of hinges, and simulated hinges of 40 s, written as one file and split into two. Lag: the times "
                 f"of sensor 2 are wrong by up to {1e3 * LAG_MAX_S:g} ms, both ways; begun apart: by up to {APART_MAX_S:g} s; drift: by up to {DRIFT_MAX_PPM:g} ppm more; jitter: {1e3 * JITTER_S:g} ms "
                 f"rms in the times of both sensors; losses: {100 * LOSS:g} % of the readings of both. Other rates by interpolation. Everything else is "
@@ -198,9 +199,8 @@ def measure(settings: Settings, report: Report) -> None:
     report.table(["data", "files", "runs", "lag known", "lag error, median, ms", "95 %", "bound, median, ms", "over", "ready", "first ready, median, s",
                   "error, median, deg", "covered", "false ready", "beside one file, median, deg", "largest"],
                  [row_of(kind, case, runs) for kind in kinds for case in CASES])
-    names = tuple(available(*RIG_HINGES, *PEOPLE))
     if len(names) > 1:
-        apart = run_jobs(measure_unrelated, [(names, k) for k in range(settings.count(UNRELATED, 10))], "unrelated", settings)
+        apart = run_jobs(measure_unrelated, [(tuple(names), k) for k in range(settings.count(UNRELATED, 4))], "unrelated", settings)
         report.text(f"Unrelated: a sensor of one of these recordings beside one of another, {PART_S:g} s.")
         report.require_none("unrelated files whose lag was told", sum(told for told, _ in apart), len(apart))
         report.require_none("unrelated files that were ever ready", sum(ready for _, ready in apart), len(apart))
