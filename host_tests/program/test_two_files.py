@@ -17,24 +17,30 @@ TWO_KEYS = KEYS[:19] + ["lag_uncertainty_s", "drift_ppm"] + KEYS[19:]
 HOUR_S = 3600.0
 
 
-def one_joint(seconds, rate_hz, sensor):
+MANY_PACES = (1.3, 1.9, 0.9, 2.6, 0.31, 3.1, 0.5, 4.3, 5.3)  # rad/s
+ROUND_S = 1.6
+REPEATED_PACES = tuple(2 * math.pi / ROUND_S * k for k in (1, 1, 1, 1, 0, 1, 0, 2, 1))
+
+
+def one_joint(seconds, rate_hz, sensor, paces=MANY_PACES):
     """Times and readings of one sensor on a hinge about z of both sensors; each sensor feels the same joint centre, which moves."""
     h = 1e-3
+    a, b, c, d, e, f, g, i, j = paces
     lever = ((-0.15, 0.04, 0.05), (0.17, -0.03, 0.04))[sensor]
 
     def pose(t):
-        base = recordings.chain_of_turns((0.7 * math.sin(1.3 * t), 2), (0.5 * math.sin(1.9 * t + 1), 0), (0.5 * math.sin(0.9 * t), 1))
-        q = recordings.multiply(base, recordings.turn(0.9 * math.sin(2.6 * t) * (1 + 0.4 * math.sin(0.31 * t)), 2)) if sensor else base
-        centre = [0.12 * math.sin(3.1 * t + 0.3 * math.sin(0.5 * t)), 0.10 * math.sin(4.3 * t + 1), 0.08 * math.sin(5.3 * t + 2)]
-        return q, [c + r for c, r in zip(centre, recordings.rotate(q, lever), strict=True)]
+        base = recordings.chain_of_turns((0.7 * math.sin(a * t), 2), (0.5 * math.sin(b * t + 1), 0), (0.5 * math.sin(c * t), 1))
+        q = recordings.multiply(base, recordings.turn(0.9 * math.sin(d * t) * (1 + 0.4 * math.sin(e * t)), 2)) if sensor else base
+        centre = [0.12 * math.sin(f * t + 0.3 * math.sin(g * t)), 0.10 * math.sin(i * t + 1), 0.08 * math.sin(j * t + 2)]
+        return q, [at + r for at, r in zip(centre, recordings.rotate(q, lever), strict=True)]
 
     noise = random.Random(sensor + 7)
     rows = []
     for k in range(int(seconds * rate_hz)):
         t = k / rate_hz
-        (q0, at0), (q, at), (q1, at1) = (pose(t + d) for d in (-h, 0.0, h))
+        (q0, at0), (q, at), (q1, at1) = (pose(t + step) for step in (-h, 0.0, h))
         step = recordings.multiply(recordings.conjugate(q0), q1)
-        force = [(a - 2 * b + c) / h**2 for a, b, c in zip(at0, at, at1, strict=True)]
+        force = [(before - 2 * now + after) / h**2 for before, now, after in zip(at0, at, at1, strict=True)]
         force[2] += 9.81
         felt = recordings.rotate(recordings.conjugate(q), force)
         rows.append([t] + [v / h + noise.gauss(0, 0.003) for v in step[1:]] + [v + noise.gauss(0, 0.03) for v in felt])
@@ -98,6 +104,19 @@ class TwoFiles(ProgramTest):
         end = self.two(two=[row for row in LATE if row[0] > 6.0])[-1]
         self.check_axes(end)
         self.check_lag(end)
+
+    def test_files_that_begin_apart_by_hand(self):
+        for apart_s in (1.5, -1.1):
+            end = self.two(two=stamped(LATE, apart_s))[-1]
+            self.check_axes(end)
+            self.check_lag(end, apart_s)
+
+    def test_motion_that_repeats_itself(self):
+        """Every ROUND_S everything comes again: lags that are so much apart fit equally."""
+        one, two = (one_joint(SECONDS, rate_hz, sensor, REPEATED_PACES) for sensor, rate_hz in ((0, 100.0), (1, 60.0)))
+        end = self.two(one=one, two=stamped(two, LAG_S))[-1]
+        self.assertEqual((end["status"], end["reason"], end["lag_s"]), ("collecting", "not_one_joint", None))
+        self.assertIn("the motion repeats itself", end["advice"][0])
 
     def test_a_shift_of_both_clocks_changes_nothing(self):
         first = self.two()[-1]

@@ -39,28 +39,28 @@ typedef enum {
 typedef struct {
     two_files_config_t config;
     two_files_kind_t kind;
-    int64_t rough_us;   ///< What was found of the lag beyond base_us before the line was drawn.
-    int64_t base_us;    ///< Sensor 2's times less sensor 1's, by that; what else there is of a lag is in the next two.
-    clock_line_t line;  ///< Over seconds since sensor 1's first time, as sensor 2's clock has them less base_us.
-    bool found;         ///< A lag fits.
-    int64_t best_us, rival_us;  ///< Those that fit best, beyond base_us, if they do.
-    bool repeats;               ///< Several lags fit, as in motion that repeats itself; then none is known.
-    bool moved;                 ///< There was motion from which the lag could be known.
+    unsigned at_fault;          ///< Number of the file, 0 or 1, that could not be read on.
+    int64_t base_us;            ///< Sensor 2's times less sensor 1's, by `kind`; what else there is of a lag is ...
+    int64_t rough_us;           ///< ... what was found before the line was drawn ...
+    clock_line_t line;          ///< ... and the line over seconds since sensor 1's first time.
+    int64_t best_us, rival_us;  ///< Lags that fit best, beyond base_us, if any do.
     uint64_t readings[2];
     uint64_t repeated[2];  ///< Of these, those that repeat the one before.
     uint64_t pairs;
     uint64_t left_out;  ///< Readings of sensor 2 where the lag is not known well enough.
-    unsigned at_fault;  ///< Number of the file, 0 or 1, that could not be read on.
+    bool found;         ///< A lag fits.
+    bool repeats;       ///< Several lags fit, as in motion that repeats itself; then none is known.
+    bool moved;         ///< There was motion from which the lag could be known.
 
     /* Private. */
+    bool has_start;
+    bool has_head[2];
+    int64_t start_us; /* sensor 1's first time */
+    int64_t now_us;   /* of the last pair, since start_us */
     sensor_file_t files[2];
     recording_row_t heads[2]; /* the next reading of each */
-    bool has_head[2];
     check_t checks[2];
-    int64_t start_us; /* sensor 1's first time */
-    bool has_start;
     jcal_imu_t last[2];
-    int64_t now_us; /* of the last pair, since start_us */
     lag_watch_t watch;
     jcal_pairing_t pairing;
 } two_files_t;
