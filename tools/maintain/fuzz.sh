@@ -39,7 +39,7 @@ fi
 runs=${1:-20000}
 shift || true
 targets=("$@")
-((${#targets[@]} > 0)) || targets=(reader push joints auto two_axes sensor packets frame)
+((${#targets[@]} > 0)) || targets=(reader push joints auto two_axes sensor packets pairing frame)
 out=build/fuzz
 mkdir -p "$out"
 
