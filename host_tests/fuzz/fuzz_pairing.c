@@ -12,8 +12,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 #define HEAD_BYTES 3u     /* kind of run and repeats, period, gap */
 #define READING_BYTES 15u /* what happens, 2 of time, 12 of values */
 #define NUMBERS 6u
-#define KEPT 128u         /* more common times than wait and are in a stretch */
-#define ROUNDING 4.8e-7f  /* an interpolated number may be so far outside of what its neighbours span, as a share of the larger one */
+#define KEPT 128u /* more common times than wait and are in a stretch */
+#define ROUNDING                                                                                                       \
+    4.8e-7f /* an interpolated number may be so far outside of what its neighbours span, as a share of the larger one */
 #define LAG_MOST_S 0.261f /* 0.25 and the largest bound, and rounding */
 #define TAKEN_MOST_S 0.301f
 #define BOUND_MOST_S 0.01001f
@@ -59,7 +60,8 @@ static void remember(run_t *run, side_t *side, const jcal_reading_t *reading, ui
     float now[NUMBERS];
     numbers_of(&reading->imu, now);
     const uint64_t first_us = (side->t_us / run->period_us + 1u) * run->period_us;
-    const bool goes_on = side->has_last && t_us > side->t_us && t_us - side->t_us <= run->gap_us;
+    const bool is_next = side->has_last && t_us > side->t_us && t_us - side->t_us <= run->gap_us;
+    const bool goes_on = is_next && first_us > side->t_us; /* not at the end of time */
     for (uint64_t at_us = first_us; goes_on && at_us <= t_us && at_us >= first_us; at_us += run->period_us) {
         span_t *const span = &side->span[side->offered % KEPT];
         span->t_us = at_us;
@@ -95,7 +97,8 @@ static void check_imu(const side_t *side, const jcal_imu_t *imu, uint64_t t_us)
 static void check_pair(run_t *run, const jcal_pair_t *pair)
 {
     require(pair->t_us % run->period_us == 0u);
-    require(!run->has_pair || run->went_back || (pair->t_us > run->last_us && pair->t_us - run->last_us > run->hole_us));
+    require(!run->has_pair || run->went_back ||
+            (pair->t_us > run->last_us && pair->t_us - run->last_us > run->hole_us));
     check_imu(&run->side[0], &pair->imu1, pair->t_us);
     check_imu(&run->side[1], &pair->imu2, pair->t_us);
     run->went_back = run->went_back && run->has_pair && pair->t_us > run->last_us;
@@ -152,7 +155,8 @@ static void learn(run_t *run, const jcal_pair_t *pair)
     const jcal_status_t of1 = jcal_sensor_push(&run->sensor[0], &reading1);
     const jcal_status_t of2 = jcal_sensor_push(&run->sensor[1], &reading2);
     if (of1 == JCAL_TICK && of2 == JCAL_TICK) {
-        require(jcal_lag_add(&run->lag, jcal_sensor_tick(&run->sensor[0]), jcal_sensor_tick(&run->sensor[1])) >= JCAL_OK);
+        require(jcal_lag_add(&run->lag, jcal_sensor_tick(&run->sensor[0]), jcal_sensor_tick(&run->sensor[1])) >=
+                JCAL_OK);
     }
     require(jcal_lag_step(&run->lag) >= JCAL_OK);
     jcal_pairing_result_t before;

@@ -206,7 +206,7 @@ jcal_status_t jcal_lag_get(const jcal_lag_t *self, jcal_lag_result_t *out)
         .lag_s = self->taken_s + self->left_s,
         .bound_s = self->known_bound_s,
         .taken_s = self->taken_s,
-        .left = self->verdict.share,
+        .left = jcal_min(self->verdict.share, 1.0f), /* between nodes a polynomial may be above */
         .motion_s = self->sums.motion_s,
     };
     *out = result;

@@ -177,17 +177,15 @@ jcal_status_t jcal_pairing_push(jcal_pairing_t *self, unsigned which, const jcal
         self->rejected += 1u;
         return JCAL_REJECTED;
     }
+    const bool goes_back = sensor->clock.has_last && (reading->t_us < sensor->clock.last_us);
     float dt_s;
-    const jcal_reject_t outcome = jcal_clock_check(&sensor->clock, self->cfg.gap_s, reading->t_us, &dt_s);
-    if (outcome == JCAL_REJECT_TIME_ORDER) {
+    if (jcal_clock_check(&sensor->clock, self->cfg.gap_s, reading->t_us, &dt_s) == JCAL_REJECT_TIME_ORDER) {
         self->rejected += 1u;
         return JCAL_REJECTED;
     }
     const uint64_t t_us = reading->t_us - (uint64_t)off_us;
-    const bool began_anew = (outcome == JCAL_REJECT_GAP) && (t_us < (self->past * self->period_us));
-    const bool has_ended = sensor->has_last && (t_us < sensor->t_us); /* time, at 2^64 us */
-    if (began_anew || has_ended) {
-        empty(self);
+    if (goes_back) {
+        empty(self); /* the clock began anew, or time ended */
         self->past = 0u;
         self->begin = 0u;
     }
