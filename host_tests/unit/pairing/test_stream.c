@@ -360,6 +360,52 @@ static void time_may_end(void)
     TEST_ASSERT_TRUE(pairs[count - 1].t_us > 1900000u);
 }
 
+/* The stretch of a slow sensor begins before the first reading that waits. */
+static void a_sensor_that_began_later_is_met_where_it_began(void)
+{
+    for (uint64_t t = 1035000u; t <= 1105000u; t += 10000u) {
+        push(2u, t);
+    }
+    push(1u, 1000000u);
+    push(1u, 1080000u);
+    TEST_ASSERT_EQUAL_INT(5, count); /* 1.04 to 1.08 s */
+    TEST_ASSERT_EQUAL_UINT64(1040000u, pairs[0].t_us);
+    TEST_ASSERT_EQUAL_UINT32(3u, result().lost1);
+    TEST_ASSERT_EQUAL_UINT(2u, result().waiting);
+    all_pairs_are_on_lines();
+}
+
+static void lags_that_are_taken_off_add_up(void)
+{
+    for (uint64_t t = 1000000u; t <= 1100000u; t += 10000u) {
+        push(1u, t);
+    }
+    TEST_ASSERT_EQUAL_UINT(10u, result().waiting);
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, 0.1f));
+    TEST_ASSERT_EQUAL_UINT(0u, result().waiting);
+    TEST_ASSERT_EQUAL_UINT32(10u, result().lost1); /* those that waited */
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, 0.15f));
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.25f, result().shift_s);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_pairing_shift(&pairing, 0.06f));
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, -0.55f));
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, -0.3f, result().shift_s);
+}
+
+/* Before the first pair there is no hole to cover a stretch from the old times to the new ones. */
+static void no_stretch_goes_over_a_shift(void)
+{
+    push(2u, 1000000u);
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, -0.03f));
+    for (uint64_t t = 980000u; t <= 1200000u; t += 10000u) {
+        jcal_reading_t reading = on_line(2u, t + 60000u);
+        reading.t_us = t + 30000u;
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_push(&pairing, 2u, &reading));
+        push(1u, t);
+    }
+    TEST_ASSERT_EQUAL_UINT64(1050000u, pairs[0].t_us); /* 1.04 s is the first of the new times */
+    all_pairs_are_on_lines();
+}
+
 /* Every common time that a sensor told of is a pair, waits, or is lost, whatever was pulled. */
 static void every_common_time_is_counted(void)
 {
@@ -454,6 +500,9 @@ int main(void)
     RUN_TEST(a_gap_of_the_sensor_that_is_ahead_keeps_what_waits);
     RUN_TEST(a_gap_after_a_lag_was_taken_off_leaves_the_hole);
     RUN_TEST(time_may_end);
+    RUN_TEST(a_sensor_that_began_later_is_met_where_it_began);
+    RUN_TEST(lags_that_are_taken_off_add_up);
+    RUN_TEST(no_stretch_goes_over_a_shift);
     RUN_TEST(every_common_time_is_counted);
     RUN_TEST(wrong_calls_are_refused);
     RUN_TEST(settings_are_checked);
