@@ -20,7 +20,7 @@
 /// left, within +-0.15 s and to some milliseconds. Once the lag is known the estimator may be used for another joint.
 ///
 /// Cost: 2.4 KiB of state. Units and frames: types.h.
-/// Method: tools/python/jointcal_tools/lag_reference.py; the lever equation of docs/METHOD_PEOPLE.md, sections 2 to 4.
+/// Method: docs/METHOD_SENSORS.md, section 3; float64 reference: tools/python/jointcal_tools/lag_reference.py.
 /// Threads: all calls on one estimator belong to one task, or behind the caller's lock.
 #ifndef JCAL_LAG_H
 #define JCAL_LAG_H

@@ -24,7 +24,7 @@
 /// readings, two thirds of that in the mean: of 1 Hz 0.05 % at 100 Hz and 0.8 % at 25 Hz, of 5 Hz 1.2 and 20 %. It is not delayed.
 /// Noise becomes smaller where it falls between two readings, by up to the root of 2.
 ///
-/// Cost: 1.2 KiB of state. Units: types.h.
+/// Cost: 1.2 KiB of state. Units: types.h. Method: docs/METHOD_SENSORS.md, section 2.
 /// Threads: all calls on one pairing belong to one task, or behind the caller's lock.
 #ifndef JCAL_PAIRING_H
 #define JCAL_PAIRING_H
