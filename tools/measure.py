@@ -60,6 +60,7 @@ MEASUREMENTS = {
     "sensor": "the stage of one sensor: beside VQF and optics, cold starts, bias",
     "sensor_faults": "what wireless sensors do to hinges: vibration, straps, lag, drift, scale, dead and exchanged readings",
     "pairing": "the lag of two sensors: recordings and simulated joints told a lag, unrelated pairs",
+    "soak": "an hour of packets of two sensors over a bad wire: counters, times, lag and calibration beside the truth",
     "cost": "time and memory, beside qmt",
 }
 MODULES = {"time": "time_to_ready", "lai22": "lai22_paper"}  # where the name differs
