@@ -53,13 +53,13 @@ JCAL_MUST_CHECK jcal_status_t jcal_lag_init(jcal_lag_t *self);
 /// Takes in the ticks of both sensors of the same time: sums only.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED if the times differ or do not increase, or a number is one that no sensor makes; JCAL_ERR_ARG.
-/// Cost:     about 800 multiply-adds.
+/// Cost:     about 800 multiply-adds, 5,500 instructions on a Cortex-M4F.
 jcal_status_t jcal_lag_add(jcal_lag_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2);
 
 /// One bounded slice of solving: one a hundredth of a second judges about once a second.
 ///
 /// Returns:  JCAL_OK; JCAL_IDLE if there is too little to judge yet; JCAL_ERR_ARG.
-/// Cost:     about 1000 multiply-adds; stack 0.8 KiB.
+/// Cost:     about 1000 multiply-adds, at most 5,700 instructions on a Cortex-M4F, 3,200 in the mean; stack 0.9 KiB.
 jcal_status_t jcal_lag_step(jcal_lag_t *self);
 
 /// What is to be taken off sensor 2's times from now on, s; 0: nothing. What it returns counts as taken off, and all sums begin anew:
