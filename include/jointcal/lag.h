@@ -50,7 +50,7 @@ typedef struct {
 /// Prepares an estimator; whatever `self` held before is lost. Errors: JCAL_ERR_ARG (null).
 JCAL_MUST_CHECK jcal_status_t jcal_lag_init(jcal_lag_t *self);
 
-/// Takes in the ticks of both sensors of the same time: sums only.
+/// Takes in the ticks of both sensors of the same time: sums only. Those of the first 2 s after a gap say too little, and are left out.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED if the times differ or do not increase, or a number is one that no sensor makes; JCAL_ERR_ARG.
 /// Cost:     about 800 multiply-adds, 5,500 instructions on a Cortex-M4F.
