@@ -4,9 +4,12 @@
 
 #include "jointcal/sensor.h"
 
+#include <math.h>
 #include <string.h>
 
 #define SLOTS 16u
+/* What a hinge learnt with times that were off by less it keeps, s. */
+#define ANEW_S 0.02f
 
 typedef struct {
     jcal_packets_t packets[2];
@@ -58,9 +61,15 @@ static void learn(hub_t *hub, const jcal_pair_t *pair, jcal_batch_hub_out_t *out
         (void)jcal_lag_add(&hub->lag, jcal_sensor_tick(&hub->sensor[0]), jcal_sensor_tick(&hub->sensor[1]));
     }
     (void)jcal_lag_step(&hub->lag);
+    jcal_pairing_result_t before;
+    jcal_pairing_result_t after;
+    (void)jcal_pairing_get(&hub->pairing, &before);
     if (jcal_pairing_align(&hub->pairing, &hub->lag) == JCAL_OK) {
-        (void)begin_hinge(hub);
-        out->anew++;
+        (void)jcal_pairing_get(&hub->pairing, &after);
+        out->taken++;
+        if (fabsf(after.shift_s - before.shift_s) > ANEW_S) {
+            (void)begin_hinge(hub);
+        }
     }
 }
 

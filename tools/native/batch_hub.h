@@ -48,12 +48,12 @@ typedef struct {
     float *rows;                           /* room x JCAL_BATCH_HUB_COLUMNS: what is known after each pair */
     size_t room;
     size_t pair_count;
-    uint32_t anew; /* times that the hinge began anew because a lag was taken off */
+    uint32_t taken; /* times that a lag was taken off */
     jcal_packets_status_t packets[2];
     jcal_pairing_result_t pairing;
 } jcal_batch_hub_out_t;
 
-/* The hinge gets pairs from the first time on that the lag is known, and begins anew when one is taken off. */
+/* The hinge gets pairs from the first time on that the lag is known, and begins anew when more than 20 ms are taken off. */
 JCAL_BATCH_EXPORT int32_t jcal_batch_hub(const jcal_batch_hub_in_t *in, jcal_batch_hub_out_t *out);
 
 #endif /* JCAL_BATCH_HUB_H */

@@ -55,7 +55,7 @@ class Output(ctypes.Structure):
     """jcal_batch_hub_out_t."""
 
     _fields_ = [("readings", Readings * 2), ("pair_us", ctypes.c_void_p), ("rows", ctypes.c_void_p), ("room", ctypes.c_size_t),
-                ("pair_count", ctypes.c_size_t), ("anew", ctypes.c_uint32), ("packets", PacketCounts * 2), ("pairing", PairCounts)]
+                ("pair_count", ctypes.c_size_t), ("taken", ctypes.c_uint32), ("packets", PacketCounts * 2), ("pairing", PairCounts)]
 
 
 @dataclass
@@ -84,7 +84,7 @@ class Found:
     values: tuple[np.ndarray, np.ndarray]  # (n, 6)
     counts: tuple[dict, dict]
     pairing: dict
-    anew: int
+    taken: int  # times that a lag was taken off
     pair_us: np.ndarray
     rows: np.ndarray  # (P, COLUMNS) of batch_hub.h
 
@@ -120,4 +120,4 @@ def run(senders: tuple[Sender, Sender], packets: Packets, room: int) -> Found:
         raise RuntimeError(f"jcal_batch_hub returned {done}")
     n = [min(out.readings[k].count, len(times[k])) for k in range(2)]
     return Found(tuple(times[k][:n[k]] for k in range(2)), tuple(values[k][:n[k]] for k in range(2)), tuple(as_dict(out.packets[k]) for k in range(2)),
-                 as_dict(out.pairing), out.anew, pair_us[:out.pair_count], rows[:out.pair_count].astype(float))
+                 as_dict(out.pairing), out.taken, pair_us[:out.pair_count], rows[:out.pair_count].astype(float))

@@ -19,7 +19,9 @@ from .judge import MAX_ERROR_DEG, line_angle_deg
 TITLE = "Hub over a bad wire"
 RATE_HZ = 100.0
 HOUR_S, QUICK_S = 3600.0, 300.0
-ACTIVITIES = (("stand", 10.0), *(("walk", 50.0), ("random", 40.0), ("squat", 30.0), ("stand", 15.0), ("sit_to_stand", 25.0), ("swing", 20.0)) * 3, ("stand", 10.0))
+ACTIVITIES = (("walk", 50.0), ("random", 40.0), ("squat", 30.0), ("stand", 15.0), ("sit_to_stand", 25.0), ("swing", 20.0))
+REST = (("stand", 10.0),)
+CYCLES = 3
 GYR_BIAS_RAD_S = 0.005  # magnitude of each sensor's
 SEED = 11
 
@@ -36,7 +38,7 @@ ORIGIN_US = 5_000_000
 GYR_LSB, ACC_LSB = np.radians(0.070), 0.488e-3 * 9.80665  # ST DS13476, table 2: 2000 deg/s, 16 g
 GAP_US, PERIOD_US = 100_000, 10_000  # of the pairing
 
-TIME_MOST_MS, HOLE_MOST_S, PAIRED_MIN, READY_MIN, LAG_KNOWN_MIN = 1.0, 1.0, 0.99, 0.95, 0.9
+TIME_MOST_MS, HOLE_MOST_S, PAIRED_MIN, READY_MIN, LAG_KNOWN_MIN, OVER_MAX = 1.0, 1.0, 0.99, 0.95, 0.9, 0.05
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,7 @@ class Case:
     name: str
     skin: float
     wires: tuple[Wire, Wire]
+    bad: bool = True  # False: nothing is lost, late or doubled
 
     @property
     def lag_s(self) -> float:
@@ -73,6 +76,8 @@ CASES = (
          (Wire(0.02, -100.0, 16, 2, 0.003, raw=True), Wire(0.005, 100.0, 16, 10, 0.003, raw=True))),
     Case("person's knee, 100 ppm, 16 bits, packets of 1 to 4", 1.0,
          (Wire(0.01, -100.0, 16, 4, 0.008), Wire(0.01, 100.0, 16, 4, 0.003))),
+    Case("the same, nothing lost, late or doubled", 1.0,
+         (Wire(0.01, -100.0, 16, 4, 0.008), Wire(0.01, 100.0, 16, 4, 0.003)), bad=False),
 )
 
 
@@ -97,7 +102,15 @@ def read_at(signals: np.ndarray, times_s: np.ndarray) -> np.ndarray:
     return sum(w * signals[k + offset] for w, offset in zip(weights, (-1, 0, 1, 2), strict=True))
 
 
-def send(wire: Wire, signals: np.ndarray, index: int, rng: np.random.Generator) -> Sent:
+def holes_of(end_s: float, index: int, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
+    """Begins and ends of the bursts in which every packet is lost."""
+    holes = [(t, t + rng.uniform(*BURST_S)) for t in np.cumsum(rng.exponential(BURST_EVERY_S, int(2 * end_s / BURST_EVERY_S) + 5)) + 5.0]
+    if index == 0:
+        holes.append((0.7 * end_s, 0.7 * end_s + SILENCE_S))
+    return np.array([begin for begin, _ in sorted(holes)]), np.maximum.accumulate([stop for _, stop in sorted(holes)])
+
+
+def send(wire: Wire, signals: np.ndarray, index: int, rng: np.random.Generator, bad: bool) -> Sent:
     """All packets of a sender that arrive, sorted by arrival."""
     end_s = len(signals) / RATE_HZ - 1.0
     step_s = wire.period_s * (1.0 + 1e-6 * wire.drift_ppm)
@@ -106,11 +119,7 @@ def send(wire: Wire, signals: np.ndarray, index: int, rng: np.random.Generator) 
     times = [np.arange(begin, stop, step_s) for begin, stop in pieces]
     sent = Sent(np.concatenate(times), np.repeat(range(len(times)), [len(t) for t in times]), np.zeros(0))
     sent.values = read_at(signals, sent.times_s)
-    holes = [(t, t + rng.uniform(*BURST_S)) for t in np.cumsum(rng.exponential(BURST_EVERY_S, int(2 * end_s / BURST_EVERY_S) + 5)) + 5.0]
-    if index == 0:
-        holes.append((0.7 * end_s, 0.7 * end_s + SILENCE_S))
-    begins = np.array([begin for begin, _ in sorted(holes)])
-    ends = np.maximum.accumulate([stop for _, stop in sorted(holes)])
+    begins, ends = holes_of(end_s, index, rng)
     arrivals, base = [], 0
     for epoch, t_s in enumerate(times):
         origin, at, number_of, before_s = int(rng.integers(1 << 31)), 0, 0, 0.0
@@ -120,7 +129,7 @@ def send(wire: Wire, signals: np.ndarray, index: int, rng: np.random.Generator) 
             count = min(int(rng.integers(1, wire.most + 1)), len(t_s) - at)
             ready_s = t_s[at + count - 1]
             arrival = max(ready_s + wire.base_s + rng.exponential(JITTER_S), before_s)
-            clean = number_of < RESTART_CLEAN
+            clean = number_of < RESTART_CLEAN or not bad
             in_hole = (hole := np.searchsorted(begins, ready_s) - 1) >= 0 and ready_s < ends[hole]
             record = (base + at, count, (origin + at) % (1 << wire.bits))
             chance = rng.uniform()
@@ -210,7 +219,7 @@ class Outcome:
     lag_off_ms: float
     lag_bound_ms: float
     lag_over: float  # share of those pairs at which it is known, and beyond the bound
-    anew: int
+    taken: int
     ready_first_s: float
     ready: float  # share of the pairs after that
     ready_at_end: bool
@@ -249,7 +258,8 @@ def motion(skin: float, duration_s: float) -> tuple[PersonRecording, tuple[np.nd
 
     It begins and ends at rest. Backward in time rates have the other sign, and accelerations are the same: so it is a motion without any jump.
     """
-    rec = simulate_person(PersonSpec(ACTIVITIES, "knee", RATE_HZ, seed=SEED, skin=skin, out_of_plane=skin, gyr_bias_deg_s=0.0))
+    cycles = CYCLES if duration_s > QUICK_S else 1
+    rec = simulate_person(PersonSpec(REST + ACTIVITIES * cycles + REST, "knee", RATE_HZ, seed=SEED, skin=skin, out_of_plane=skin, gyr_bias_deg_s=0.0))
     rng, pieces = np.random.default_rng([SEED, 1]), int(np.ceil(duration_s * RATE_HZ / len(rec)))
     signals = []
     for gyr, acc in ((rec.gyr1, rec.acc1), (rec.gyr2, rec.acc2)):
@@ -263,7 +273,7 @@ def motion(skin: float, duration_s: float) -> tuple[PersonRecording, tuple[np.nd
 def play(case: Case, duration_s: float) -> tuple[PersonRecording, tuple[Sent, Sent], Found]:
     rng = np.random.default_rng([SEED, CASES.index(case)])
     rec, signals = motion(case.skin, duration_s)
-    sent = tuple(send(wire, signals[k], k, rng) for k, wire in enumerate(case.wires))
+    sent = tuple(send(wire, signals[k], k, rng, case.bad) for k, wire in enumerate(case.wires))
     arrival = np.concatenate([s.arrival_s for s in sent])
     order = np.argsort(arrival, kind="stable")
     packets = Packets(np.repeat([0, 1], [len(s.first) for s in sent])[order], np.rint(1e6 * arrival[order]) + ORIGIN_US,
@@ -299,7 +309,7 @@ def measure_case(job: tuple[int, float]) -> Outcome:
         case, float(t_s[-1]), wrong_counts, found.counts, tuple(w[0] for w in wanted), wrong_readings, tuple(rms),
         tuple(found.counts[k]["drift_ppm"] - case.wires[k].drift_ppm for k in range(2)), *judge_pairs(found, duration_s),
         float(t_s[since_known]) if known.any() else np.inf, float(known[since_known:].mean()) if known.any() else 0.0,
-        float(1e3 * off_s[-1]) if known[-1] else np.inf, float(1e3 * rows[-1, 14]), float(over.sum() / max(known.sum(), 1)), found.anew,
+        float(1e3 * off_s[-1]) if known[-1] else np.inf, float(1e3 * rows[-1, 14]), float(over.sum() / max(known.sum(), 1)), found.taken,
         float(t_s[since_ready]) if ready.any() else np.inf, float(ready[since_ready:].mean()) if ready.any() else 0.0, bool(ready[-1]),
         int(np.sum(for_axes & (errors.max(1) > MAX_ERROR_DEG))), float(errors[-1].max()), float(bounds[-1].max()), int(rows[-1, 2]))
 
@@ -310,13 +320,13 @@ def measure(settings: Settings, report: Report) -> None:
     report.text(f"A simulated knee for {duration_s:g} s: walking, squats, other motion and rests in turns, ten minutes forward and backward. Two senders with clocks of their own; {100 * LOST:g} % of the "
                 f"packets lost, and all of them in bursts of {BURST_S[0]:g} to {BURST_S[1]:g} s about every {BURST_EVERY_S:g} s and once for {SILENCE_S:g} s (sensor 1); "
                 f"{100 * LATE:g} % come after later ones, {100 * DOUBLED:g} % twice; delays above the fastest {1e3 * JITTER_S:g} ms rms. Packets, pairing, lag and a hinge of either "
-                "kind run as on a hub; the hinge gets pairs once the lag is known, and begins anew when one is taken off. What must be counted follows from the order of arrivals.")
+                "kind run as on a hub; the hinge gets pairs once the lag is known, and begins anew when more than 20 ms are taken off. What must be counted follows from the order of arrivals.")
     names = ("readings", "lost", "late", "duplicate", "odd", "restarts")
     report.table(["case", "sensor", *names, "as injected", "times, ms rms", "drift off, ppm"],
                  [[o.case.name, k + 1, *(o.counts[k][name] for name in names), "yes" if all(o.counts[k][n] == o.expected[k][n] for n in names) else "NO",
                    number(o.time_rms_ms[k]), number(o.drift_off_ppm[k], 1)] for o in outcomes for k in range(2)])
     report.table(["case", "lag, ms", "first known, s", "known since", "taken off", "off at the end, ms", "bound, ms", "over", "pairs", "of common times", "longest hole, s"],
-                 [[o.case.name, number(1e3 * o.case.lag_s, 0), number(o.lag_first_s, 0), percent(o.lag_known, 1), o.anew, number(o.lag_off_ms, 1), number(o.lag_bound_ms, 1),
+                 [[o.case.name, number(1e3 * o.case.lag_s, 0), number(o.lag_first_s, 0), percent(o.lag_known, 1), o.taken, number(o.lag_off_ms, 1), number(o.lag_bound_ms, 1),
                    percent(o.lag_over, 1), o.paired, percent(o.paired, o.to_pair), number(o.hole_s)] for o in outcomes])
     report.table(["case", "model", "first ready, s", "ready since", "false ready, pairs", "axis error at the end, deg", "its bound, deg"],
                  [[o.case.name, ("rigid", "functional")[o.model], number(o.ready_first_s, 0), percent(o.ready, 1), o.false_ready, number(o.error_deg), number(o.bound_deg)]
@@ -328,10 +338,14 @@ def measure(settings: Settings, report: Report) -> None:
     report.require_most("times of readings, rms, after a minute", max(max(o.time_rms_ms) for o in outcomes), TIME_MOST_MS, " ms")
     report.require_share("common times that became pairs", sum(o.paired for o in outcomes), sum(o.to_pair for o in outcomes), PAIRED_MIN)
     report.require_most("longest time without the pairs that there should be", max(o.hole_s for o in outcomes), HOLE_MOST_S, " s")
+    report.require_none("rigid knees that were ever false ready", sum(o.false_ready > 0 for o in outcomes), count)
+    if settings.quick:
+        return  # the rest is of an hour
     report.require_none("lags not known at the end", sum(not np.isfinite(o.lag_off_ms) for o in outcomes), count)
     report.require_none("lags beyond their bound at the end", sum(not o.lag_off_ms <= o.lag_bound_ms for o in outcomes), count)
     report.require("lag known since it was first, at least 90 %", percent(min(o.lag_known for o in outcomes), 1), min(o.lag_known for o in outcomes) >= LAG_KNOWN_MIN)
-    report.require_none("false ready", sum(o.false_ready > 0 for o in outcomes), count)
     report.require_none("hinges not ready at the end", sum(not o.ready_at_end for o in outcomes), count)
     report.require_none("axes beyond their bound at the end", sum(not o.error_deg <= o.bound_deg for o in outcomes), count)
-    report.require("ready since it was first, at least 95 %", percent(min(o.ready for o in outcomes), 1), min(o.ready for o in outcomes) >= READY_MIN)
+    report.require_most("known lags beyond their bound, share of the time", max(o.lag_over for o in outcomes), OVER_MAX)
+    rigid = [o.ready for o in outcomes if o.case.skin == 0.0]
+    report.require("rigid knees: ready since it was first, at least 95 %", percent(min(rigid), 1), min(rigid) >= READY_MIN)
