@@ -257,8 +257,10 @@ static void run_ticks(const uint8_t *data, size_t size)
             const uint64_t step_us = step_of(data + at, kind, 5000u) * 4u;
             t_us += step_us;
             const float dt_s = (kind == AS_SENSOR) ? 1e-6f * (float)step_us : component(data + at, kind, 1.0f);
-            const jcal_tick_t tick1 = tick_at(data + at + 2, kind, t_us, dt_s);
-            const jcal_tick_t tick2 = tick_at(data + at + 70, kind, t_us, dt_s);
+            jcal_tick_t tick1 = tick_at(data + at + 2, kind, t_us, dt_s);
+            jcal_tick_t tick2 = tick_at(data + at + 70, kind, t_us, dt_s);
+            tick1.since_s = 0.25f * (float)data[at]; /* filters are warm, mostly */
+            tick2.since_s = 0.25f * (float)data[at + 1];
             require(jcal_lag_add(&lag, &tick1, &tick2) >= JCAL_OK);
             for (unsigned k = 0; k < data[1] % 8u; k++) {
                 require(jcal_lag_step(&lag) >= JCAL_OK);

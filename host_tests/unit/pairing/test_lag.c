@@ -293,6 +293,27 @@ static void filters_must_be_warm(void)
     }
 }
 
+/* What was kept before a tick that is left out is of another time than what comes after it. */
+static void a_cold_tick_empties_what_is_kept(void)
+{
+    const hinge_t arm = arm_usual();
+    for (int k = 0; k < 40; ++k) {
+        add_pair(&arm, &arm, 0.0);
+    }
+    const float count = lag.sums.count;
+    jcal_tick_t tick1 = warm_tick(&arm, 0.05 * next, 1, (uint64_t)next * TICK_US);
+    const jcal_tick_t tick2 = warm_tick(&arm, 0.05 * next, 2, (uint64_t)next * TICK_US);
+    tick1.since_s = 0.5f;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_add(&lag, &tick1, &tick2));
+    ++next;
+    for (int k = 0; k < 2 * N - 1; ++k) {
+        add_pair(&arm, &arm, 0.0);
+        TEST_ASSERT_EQUAL_FLOAT(count, lag.sums.count);
+    }
+    add_pair(&arm, &arm, 0.0);
+    TEST_ASSERT_EQUAL_FLOAT(count + 1.0f, lag.sums.count);
+}
+
 static void old_motion_fades(void)
 {
     const hinge_t arm = arm_usual();
@@ -362,6 +383,7 @@ int main(void)
     RUN_TEST(nothing_is_known_without_motion);
     RUN_TEST(a_gap_empties_what_is_kept_but_not_the_sums);
     RUN_TEST(filters_must_be_warm);
+    RUN_TEST(a_cold_tick_empties_what_is_kept);
     RUN_TEST(old_motion_fades);
     RUN_TEST(wrong_calls_are_refused);
     RUN_TEST(a_judgement_begins_anew_each_time);
