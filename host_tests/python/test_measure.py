@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tools" / "python"))
 
 from jointcal_tools import ols17  # noqa: E402
-from jointcal_tools.measure import center_vectors, faults, never, qmt_reference  # noqa: E402
+from jointcal_tools.measure import center_vectors, faults, never, qmt_reference, soak  # noqa: E402
 from jointcal_tools.measure.harness import (Incomplete, Report, binomial_quantile, numbered, orientations_by,  # noqa: E402
                                             quantile)
 from jointcal_tools.measure.judge import Verdict, line_angle_deg  # noqa: E402
@@ -37,6 +37,28 @@ class JudgeTest(unittest.TestCase):
     def test_wrong_pairing_is_not_covered(self):
         self.assertEqual(verdict([1], [[1, 3]], [0], [[2, 2]]).covered(0).tolist(), [True, False])
         self.assertEqual(verdict([1], [[1, 1]], [1], [[2, 2]]).covered(0).tolist(), [False, False])
+
+
+class SoakTest(unittest.TestCase):
+    def counted(self, packets, restart_at=1000):
+        sent = soak.Sent(np.arange(2000.0), (np.arange(2000) >= restart_at).astype(int), np.zeros((2000, 6)))
+        sent.first, sent.count = [first for first, _ in packets], [count for _, count in packets]
+        return soak.expected(sent)
+
+    def test_what_is_lost_late_and_doubled_follows_from_the_order_of_arrival(self):
+        # 2 and 3 come after 4 and 5, so they are lost and late; then once more; 6 and 7 never; 8 twice, and once more after 70 others.
+        counts, out = self.counted([(0, 2), (4, 2), (2, 2), (2, 2), (8, 1), (8, 1), *((k, 10) for k in range(9, 79, 10)), (8, 1)])
+        self.assertEqual(counts, {"readings": 75, "lost": 4, "late": 3, "duplicate": 3, "odd": 0, "restarts": 0})
+        self.assertEqual(out, [0, 1, 4, 5, *range(8, 79)])
+
+    def test_two_packets_of_a_sensor_that_begins_anew_are_odd(self):
+        counts, out = self.counted([(0, 1), (10, 3), (13, 2), (15, 2), (17, 1)], restart_at=10)
+        self.assertEqual(counts, {"readings": 4, "lost": 0, "late": 0, "duplicate": 0, "odd": 5, "restarts": 1})
+        self.assertEqual(out, [0, 15, 16, 17])
+
+    def test_common_times_that_readings_enclose(self):
+        # From 4 ms to 25 ms: 10 and 20 ms; then 130 ms are too long; then 170 ms.
+        np.testing.assert_array_equal(soak.told_of(np.array([4000, 25000, 155000, 165000, 170000])), [1, 2, 16, 17])
 
 
 class HarnessTest(unittest.TestCase):

@@ -20,7 +20,7 @@
 /// left, within +-0.15 s and to some milliseconds. Once the lag is known the estimator may be used for another joint.
 ///
 /// Cost: 2.4 KiB of state. Units and frames: types.h.
-/// Method: tools/python/jointcal_tools/lag_reference.py; the lever equation of docs/METHOD_PEOPLE.md, sections 2 to 4.
+/// Method: docs/METHOD_SENSORS.md, section 3; float64 reference: tools/python/jointcal_tools/lag_reference.py.
 /// Threads: all calls on one estimator belong to one task, or behind the caller's lock.
 #ifndef JCAL_LAG_H
 #define JCAL_LAG_H
@@ -50,16 +50,16 @@ typedef struct {
 /// Prepares an estimator; whatever `self` held before is lost. Errors: JCAL_ERR_ARG (null).
 JCAL_MUST_CHECK jcal_status_t jcal_lag_init(jcal_lag_t *self);
 
-/// Takes in the ticks of both sensors of the same time: sums only.
+/// Takes in the ticks of both sensors of the same time: sums only. Those of the first 2 s after a gap say too little, and are left out.
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED if the times differ or do not increase, or a number is one that no sensor makes; JCAL_ERR_ARG.
-/// Cost:     about 800 multiply-adds.
+/// Cost:     about 800 multiply-adds, 5,500 instructions on a Cortex-M4F.
 jcal_status_t jcal_lag_add(jcal_lag_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2);
 
 /// One bounded slice of solving: one a hundredth of a second judges about once a second.
 ///
 /// Returns:  JCAL_OK; JCAL_IDLE if there is too little to judge yet; JCAL_ERR_ARG.
-/// Cost:     about 1000 multiply-adds; stack 0.8 KiB.
+/// Cost:     about 1000 multiply-adds, at most 5,700 instructions on a Cortex-M4F, 3,200 in the mean; stack 0.9 KiB.
 jcal_status_t jcal_lag_step(jcal_lag_t *self);
 
 /// What is to be taken off sensor 2's times from now on, s; 0: nothing. What it returns counts as taken off, and all sums begin anew:

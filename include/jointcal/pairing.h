@@ -24,7 +24,7 @@
 /// readings, two thirds of that in the mean: of 1 Hz 0.05 % at 100 Hz and 0.8 % at 25 Hz, of 5 Hz 1.2 and 20 %. It is not delayed.
 /// Noise becomes smaller where it falls between two readings, by up to the root of 2.
 ///
-/// Cost: 1.2 KiB of state. Units: types.h.
+/// Cost: 1.2 KiB of state. Units: types.h. Method: docs/METHOD_SENSORS.md, section 2.
 /// Threads: all calls on one pairing belong to one task, or behind the caller's lock.
 #ifndef JCAL_PAIRING_H
 #define JCAL_PAIRING_H
@@ -65,7 +65,8 @@ JCAL_MUST_CHECK jcal_status_t jcal_pairing_init(jcal_pairing_t *self, const jcal
 ///
 /// Returns:  JCAL_OK; JCAL_REJECTED (counted) if its time does not increase or a number is one that no sensor makes; JCAL_ERR_ARG.
 ///           A clock that goes back is believed after 0.4 s (types.h); pairs then go back, too.
-/// Cost:     at most gap_s / period_s interpolations of six numbers, and as many readings that are dropped as can wait.
+/// Cost:     at most gap_s / period_s interpolations of six numbers, and as many readings that are dropped as can wait: at equal rates 320
+///           instructions on a Cortex-M4F, 380 at most, and a pull 70, 140 at most.
 jcal_status_t jcal_pairing_push(jcal_pairing_t *self, unsigned which, const jcal_reading_t *reading);
 
 /// The next pair, if there is one.

@@ -17,6 +17,9 @@
 #define STRIDE_FIRST 2u
 /// Largest lag that is believed, s.
 #define RANGE_S 0.25f
+/// Time that filters must have run, s: before the lag is roughly taken off, and then.
+#define WARM_FIRST_S 1.0f
+#define WARM_S 2.0f
 
 /// Bound: a floor, s, and so many standard deviations. Motion that takes one independent reading of each of three components, s. Share
 /// that the filters of two sensors leave of themselves.
@@ -68,6 +71,17 @@ jcal_status_t jcal_lag_init(jcal_lag_t *self)
     return JCAL_OK;
 }
 
+static bool is_rough(const jcal_lag_t *self)
+{
+    return self->stride > 1u;
+}
+
+/// True once the sensors' filters have run for long enough: until then inclinations are wrong by degrees, each by its own.
+static bool is_warm(const jcal_lag_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
+{
+    return jcal_min(tick1->since_s, tick2->since_s) >= (is_rough(self) ? WARM_FIRST_S : WARM_S);
+}
+
 jcal_status_t jcal_lag_add(jcal_lag_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
 {
     if ((self == NULL) || (tick1 == NULL) || (tick2 == NULL) || (self->stride == 0u)) {
@@ -77,9 +91,13 @@ jcal_status_t jcal_lag_add(jcal_lag_t *self, const jcal_tick_t *tick1, const jca
     if (kind == JCAL_TICKS_REJECTED) {
         return JCAL_REJECTED;
     }
-    if (kind == JCAL_TICKS_ANEW) {
+    const bool warm = is_warm(self, tick1, tick2);
+    if ((kind == JCAL_TICKS_ANEW) || !warm) {
         self->filled = 0u;
         self->skipped = 0u;
+    }
+    if (!warm) {
+        return JCAL_OK;
     }
     self->sums.motion_s += jcal_ticks_weigh(&self->ticks, tick1, tick2).motion_s;
     self->skipped = (uint8_t)(self->skipped + 1u);
@@ -101,11 +119,6 @@ static float bound_of(const jcal_lag_t *self, float share)
     }
     const float spread_s = self->node_s * sqrtf(2.0f * (share + SHARE_FLOOR) / information);
     return jcal_min(FLOOR_S + (DEVIATIONS * spread_s), JCAL_LAG_UNKNOWN_S);
-}
-
-static bool is_rough(const jcal_lag_t *self)
-{
-    return self->stride > 1u;
 }
 
 /// True if nothing speaks against what was found.
@@ -206,7 +219,7 @@ jcal_status_t jcal_lag_get(const jcal_lag_t *self, jcal_lag_result_t *out)
         .lag_s = self->taken_s + self->left_s,
         .bound_s = self->known_bound_s,
         .taken_s = self->taken_s,
-        .left = self->verdict.share,
+        .left = jcal_min(self->verdict.share, 1.0f), /* between nodes a polynomial may be above */
         .motion_s = self->sums.motion_s,
     };
     *out = result;

@@ -143,7 +143,9 @@ static void stretch_to(jcal_pairing_t *self, unsigned index, uint64_t t_us)
     stretch->before = sensor->imu;
     stretch->length_us = (float)(uint32_t)(t_us - sensor->t_us);
     stretch->next = sensor->next;
-    while ((sensor->next * self->period_us) <= t_us) {
+    /* A difference: the last common time before time ends may have none after it. */
+    const uint64_t since_us = t_us - stretch->from_us;
+    while ((t_us - (sensor->next * self->period_us)) < since_us) {
         ++sensor->next;
     }
     stretch->end = sensor->next;
@@ -156,8 +158,8 @@ static void stretch_to(jcal_pairing_t *self, unsigned index, uint64_t t_us)
 /// True if the stretch from the sensor's last reading to t_us may be filled.
 static bool goes_on(const jcal_pairing_t *self, const jcal_pairing_sensor_t *sensor, uint64_t t_us)
 {
-    const uint64_t since_us = t_us - sensor->t_us; /* huge if time goes back */
-    return sensor->has_last && (since_us > 0u) && (since_us <= UINT32_MAX) &&
+    const uint64_t since_us = t_us - sensor->t_us;
+    return sensor->has_last && (t_us > sensor->t_us) && (since_us <= UINT32_MAX) &&
            (((float)(uint32_t)since_us * MICROSECONDS) <= self->cfg.gap_s);
 }
 
@@ -175,25 +177,26 @@ jcal_status_t jcal_pairing_push(jcal_pairing_t *self, unsigned which, const jcal
         self->rejected += 1u;
         return JCAL_REJECTED;
     }
+    const bool goes_back = sensor->clock.has_last && (reading->t_us < sensor->clock.last_us);
     float dt_s;
-    const jcal_reject_t outcome = jcal_clock_check(&sensor->clock, self->cfg.gap_s, reading->t_us, &dt_s);
-    if (outcome == JCAL_REJECT_TIME_ORDER) {
+    if (jcal_clock_check(&sensor->clock, self->cfg.gap_s, reading->t_us, &dt_s) == JCAL_REJECT_TIME_ORDER) {
         self->rejected += 1u;
         return JCAL_REJECTED;
     }
     const uint64_t t_us = reading->t_us - (uint64_t)off_us;
-    if ((outcome == JCAL_REJECT_GAP) && (t_us < (self->past * self->period_us))) {
-        empty(self); /* the clock began anew */
+    if (goes_back) {
+        empty(self); /* the clock began anew, or time ended */
         self->past = 0u;
         self->begin = 0u;
     }
-    if (goes_on(self, sensor, t_us)) {
+    const bool has_stretch = goes_on(self, sensor, t_us);
+    if (has_stretch) {
         stretch_to(self, index, t_us);
     } else {
         begin_at(self, sensor, t_us);
     }
     sensor->imu = reading->imu;
-    if ((self->count == 0u) || (self->ahead == index)) {
+    if (has_stretch && ((self->count == 0u) || (self->ahead == index))) {
         let_wait(self);
     }
     return JCAL_OK;

@@ -11,14 +11,19 @@
  * (a person's joint with two axes, in the same way),
  * REPLAY_SHOW_SLICES (a line before each step of it: which slice), REPLAY_AUTO (a hinge of either kind), REPLAY_WINDOW (window engine of the hinge, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
- * the stack before every call and print how deep the deepest one went), REPLAY_LEG (hip and knee of a person, with their sensors' stages). */
+ * the stack before every call and print how deep the deepest one went), REPLAY_LEG (hip and knee of a person, with their sensors' stages),
+ * REPLAY_PACKETS (packets of four raw readings with jitter; a step is one pull), REPLAY_PAIRING (sensor 2 reads 3.7 ms later; a step is one
+ * pull), REPLAY_LAG (the estimate of the lag, as REPLAY_FUNCTIONAL). */
 #include "jointcal/center.h"
 #include "jointcal/chain.h"
 #include "jointcal/functional.h"
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_auto.h"
 #include "jointcal/hinge_window.h"
+#include "jointcal/lag.h"
 #include "jointcal/leg.h"
+#include "jointcal/packet.h"
+#include "jointcal/pairing.h"
 #include "jointcal/sensor.h"
 #include "jointcal/two_axes.h"
 #include "jointcal/two_dof.h"
@@ -168,6 +173,74 @@ static jcal_status_t engine_init(void)
     const bool ready = (jcal_sensor_init(&sensors[0]) == JCAL_OK) && (jcal_sensor_init(&sensors[1]) == JCAL_OK);
     return ready ? jcal_two_axes_init(&replayed, &config) : JCAL_ERR_ARG;
 }
+#elif defined(REPLAY_LAG)
+#define OF_TICKS
+typedef jcal_pair_t sample_t;
+typedef jcal_lag_result_t result_t;
+static jcal_lag_t replayed;
+static jcal_sensor_t sensors[2];
+static uint64_t last_us;
+#define engine_get jcal_lag_get
+#define joint_add jcal_lag_add
+#define joint_step jcal_lag_step
+#define joint_slice replayed.search.slice
+
+static jcal_status_t engine_init(void)
+{
+    const bool ready = (jcal_sensor_init(&sensors[0]) == JCAL_OK) && (jcal_sensor_init(&sensors[1]) == JCAL_OK);
+    return ready ? jcal_lag_init(&replayed) : JCAL_ERR_ARG;
+}
+#elif defined(REPLAY_PAIRING)
+typedef jcal_pair_t sample_t;
+typedef struct {
+    jcal_pairing_result_t counts;
+    jcal_pair_t last;
+} result_t;
+static jcal_pairing_t replayed;
+static jcal_pair_t last_pair;
+
+static jcal_status_t engine_init(void)
+{
+    const jcal_pairing_config_t config = jcal_pairing_config_default();
+    return jcal_pairing_init(&replayed, &config);
+}
+
+static jcal_status_t engine_get(const jcal_pairing_t *self, result_t *out)
+{
+    out->last = last_pair;
+    return jcal_pairing_get(self, &out->counts);
+}
+#elif defined(REPLAY_PACKETS)
+enum { PER_PACKET = 4, SLOTS = 16 };
+typedef jcal_reading_t sample_t;
+typedef struct {
+    jcal_packets_status_t counts;
+    jcal_reading_t last;
+} result_t;
+static jcal_packets_t replayed;
+static unsigned char packet_storage[JCAL_PACKETS_STORAGE_BYTES(SLOTS, PER_PACKET, JCAL_PACKET_RAW)];
+static jcal_reading_t last_reading;
+static int16_t packet_values[PER_PACKET * JCAL_PACKET_VALUES];
+static jcal_scale_t packet_scale;
+static uint32_t packet_counter;
+
+static jcal_status_t engine_init(void)
+{
+    jcal_packet_config_t config = jcal_packet_config_default();
+    config.per_packet = PER_PACKET;
+    config.packets = SLOTS;
+    config.values = JCAL_PACKET_RAW;
+    const jcal_status_t has_scale = jcal_chip_scale("LSM6DSV", 2000.0f, 16.0f, &config.scale);
+    packet_scale = config.scale;
+    return (has_scale == JCAL_OK) ? jcal_packets_init(&replayed, &config, packet_storage, sizeof(packet_storage))
+                                  : has_scale;
+}
+
+static jcal_status_t engine_get(const jcal_packets_t *self, result_t *out)
+{
+    out->last = last_reading;
+    return jcal_packets_get(self, &out->counts);
+}
 #elif defined(REPLAY_AUTO)
 typedef jcal_pair_t sample_t;
 typedef jcal_hinge_auto_result_t result_t;
@@ -260,7 +333,61 @@ __attribute__((noinline)) void replay_mark_end(void)
     replay_place = 0;
 }
 
-#ifdef OF_TICKS
+#if defined(REPLAY_PAIRING)
+static void push_one(unsigned which, const jcal_reading_t *reading)
+{
+    replay_mark_push();
+    (void)jcal_pairing_push(&replayed, which, reading);
+    replay_mark_end();
+    jcal_status_t status = JCAL_OK;
+    for (unsigned k = 0; (k <= JCAL_PAIRING_WAITING) && (status == JCAL_OK); ++k) {
+        replay_mark_step();
+        status = jcal_pairing_pull(&replayed, &last_pair);
+        replay_mark_end();
+    }
+}
+
+static __attribute__((noinline)) void call_engine(const sample_t *pair)
+{
+    const jcal_reading_t readings[2] = {{pair->t_us, pair->imu1}, {pair->t_us + 3700u, pair->imu2}};
+    push_one(1u, &readings[0]);
+    push_one(2u, &readings[1]);
+}
+#elif defined(REPLAY_PACKETS)
+static int16_t raw_of(float value, float scale)
+{
+    const float raw = value / scale;
+    return (int16_t)((raw > 32767.0f) ? 32767.0f : ((raw < -32768.0f) ? -32768.0f : raw));
+}
+
+/* Up to 8 ms of delay. */
+static __attribute__((noinline)) void call_engine(const sample_t *reading)
+{
+    const jcal_imu_t *const imu = &reading->imu;
+    const float values[JCAL_PACKET_VALUES] = {imu->gyr_rad_s.x, imu->gyr_rad_s.y, imu->gyr_rad_s.z,
+                                              imu->acc_m_s2.x,  imu->acc_m_s2.y,  imu->acc_m_s2.z};
+    int16_t *const to = &packet_values[(packet_counter % PER_PACKET) * JCAL_PACKET_VALUES];
+    for (unsigned k = 0; k < JCAL_PACKET_VALUES; ++k) {
+        to[k] = raw_of(values[k], (k < 3u) ? packet_scale.gyr_rad_s : packet_scale.acc_m_s2);
+    }
+    ++packet_counter;
+    if ((packet_counter % PER_PACKET) != 0u) {
+        return;
+    }
+    const uint64_t delay_us = (packet_counter * 2654435761u) >> 19;
+    const jcal_packet_t packet = {reading->t_us + delay_us, packet_counter - PER_PACKET, PER_PACKET, packet_values,
+                                  NULL};
+    replay_mark_push();
+    (void)jcal_packets_push(&replayed, &packet);
+    replay_mark_end();
+    jcal_status_t status = JCAL_OK;
+    for (unsigned k = 0; (k <= PER_PACKET) && ((status == JCAL_OK) || (status == JCAL_REJECTED)); ++k) {
+        replay_mark_step();
+        status = jcal_packets_pull(&replayed, &last_reading);
+        replay_mark_end();
+    }
+}
+#elif defined(OF_TICKS)
 /* As jcal_functional_pair_update and its like, with the marks of the parts that are asked for. */
 static void mark_part(void (*mark)(void))
 {
@@ -366,7 +493,39 @@ static uint64_t hash_f32(uint64_t hash, float value)
     return hash_u64(hash, bits, 4);
 }
 
-#ifdef REPLAY_SENSOR
+#if defined(REPLAY_LAG)
+static uint64_t hash_result(uint64_t hash, const result_t *r)
+{
+    hash = hash_f32(hash_f32(hash_f32(hash, r->lag_s), r->bound_s), r->taken_s);
+    return hash_u64(hash_f32(hash_f32(hash, r->left), r->motion_s), r->lag_known ? 1u : 0u, 4);
+}
+#elif defined(REPLAY_PAIRING) || defined(REPLAY_PACKETS)
+static uint64_t hash_vec3(uint64_t hash, jcal_vec3_t v)
+{
+    return hash_f32(hash_f32(hash_f32(hash, v.x), v.y), v.z);
+}
+
+static uint64_t hash_imu(uint64_t hash, const jcal_imu_t *imu)
+{
+    return hash_vec3(hash_vec3(hash, imu->gyr_rad_s), imu->acc_m_s2);
+}
+
+static uint64_t hash_result(uint64_t hash, const result_t *r)
+{
+#ifdef REPLAY_PAIRING
+    const uint32_t words[] = {r->counts.pairs, r->counts.lost1, r->counts.lost2, r->counts.rejected, r->counts.waiting};
+    hash = hash_imu(hash_imu(hash, &r->last.imu1), &r->last.imu2);
+#else
+    const uint32_t words[] = {r->counts.readings, r->counts.lost, r->counts.late, r->counts.duplicate, r->counts.odd};
+    hash = hash_f32(hash_f32(hash_f32(hash, r->counts.drift_ppm), r->counts.bound_ppm), r->counts.jitter_s);
+    hash = hash_imu(hash, &r->last.imu);
+#endif
+    for (size_t k = 0; k < sizeof(words) / sizeof(words[0]); ++k) {
+        hash = hash_u64(hash, words[k], 4);
+    }
+    return hash_u64(hash, r->last.t_us, 8);
+}
+#elif defined(REPLAY_SENSOR)
 static uint64_t hash_array(uint64_t hash, const float *values, size_t count)
 {
     for (size_t k = 0; k < count; ++k) {
@@ -576,7 +735,7 @@ static uint64_t hash_result(uint64_t hash, const result_t *r)
 /* False where there is no status. */
 static bool is_ready(const result_t *r)
 {
-#ifdef REPLAY_SENSOR
+#if defined(REPLAY_SENSOR) || defined(REPLAY_LAG) || defined(REPLAY_PAIRING) || defined(REPLAY_PACKETS)
     (void)r;
     return false;
 #else

@@ -17,6 +17,14 @@ enum { N = JCAL_LAG_NODES, SIDE = JCAL_LAG_SIDE };
 static jcal_lag_t lag;
 static uint32_t next;
 
+/* Filters have run for long. */
+static jcal_tick_t warm_tick(const hinge_t *arm, double t, int sensor, uint64_t t_us)
+{
+    jcal_tick_t out = hinge_tick(arm, t, sensor, t_us);
+    out.since_s = 1000.0f;
+    return out;
+}
+
 void setUp(void)
 {
     next = 1u;
@@ -32,8 +40,8 @@ static void add_pair(const hinge_t *one, const hinge_t *two, double late_s)
 {
     const double t = 0.05 * (double)next;
     const uint64_t t_us = (uint64_t)next * TICK_US;
-    const jcal_tick_t tick1 = hinge_tick(one, t, 1, t_us);
-    const jcal_tick_t tick2 = hinge_tick(two, t - late_s, 2, t_us);
+    const jcal_tick_t tick1 = warm_tick(one, t, 1, t_us);
+    const jcal_tick_t tick2 = warm_tick(two, t - late_s, 2, t_us);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_add(&lag, &tick1, &tick2));
     ++next;
 }
@@ -127,13 +135,30 @@ static void node_is_right(int node)
     }
 }
 
+static void own_sums_are_right(void)
+{
+    for (int i = 0; i < 4; ++i) {
+        for (int k = 0; k <= i; ++k) {
+            double sum = 0.0;
+            double size = 0.0;
+            for (int t = SIDE; t < TAKEN - SIDE; ++t) {
+                for (int c = 0; c < 3; ++c) {
+                    sum += f1[t][c][i] * f1[t][c][k];
+                    size += f1[t][c][i] * f1[t][c][i] + f1[t][c][k] * f1[t][c][k];
+                }
+            }
+            TEST_ASSERT_DOUBLE_WITHIN(SUM_TOL * size, sum, (double)lag.sums.own1[i * (i + 1) / 2 + k]);
+        }
+    }
+}
+
 /* Every second tick at first: node k has F_1(t) beside F_2(t + lag), for the same t at all nodes. */
 static void sums_are_those_of_double_precision(void)
 {
     const hinge_t arm = arm_usual();
     for (uint32_t k = 1u; k <= TICKS; ++k) {
-        const jcal_tick_t tick1 = hinge_tick(&arm, 0.05 * k, 1, 0u);
-        const jcal_tick_t tick2 = hinge_tick(&arm, 0.05 * k, 2, 0u);
+        const jcal_tick_t tick1 = warm_tick(&arm, 0.05 * k, 1, 0u);
+        const jcal_tick_t tick2 = warm_tick(&arm, 0.05 * k, 2, 0u);
         if (k % 2u == 0u) {
             rows_of(&tick1, f1[k / 2u - 1u]);
             rows_of(&tick2, f2[k / 2u - 1u]);
@@ -144,6 +169,7 @@ static void sums_are_those_of_double_precision(void)
     for (int node = 0; node < N; ++node) {
         node_is_right(node);
     }
+    own_sums_are_right();
 }
 
 /* A polynomial of degree 6 in the lag is met exactly between nodes. */
@@ -237,8 +263,8 @@ static void a_gap_empties_what_is_kept_but_not_the_sums(void)
     }
     const float count = lag.sums.count;
     for (int k = 0; k < 2 * (N - 1); ++k) {
-        jcal_tick_t tick1 = hinge_tick(&arm, 0.05 * next, 1, (uint64_t)next * TICK_US);
-        jcal_tick_t tick2 = hinge_tick(&arm, 0.05 * next, 2, (uint64_t)next * TICK_US);
+        jcal_tick_t tick1 = warm_tick(&arm, 0.05 * next, 1, (uint64_t)next * TICK_US);
+        jcal_tick_t tick2 = warm_tick(&arm, 0.05 * next, 2, (uint64_t)next * TICK_US);
         tick1.epoch = tick2.epoch = 2u;
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_add(&lag, &tick1, &tick2));
         TEST_ASSERT_EQUAL_FLOAT(count, lag.sums.count);
@@ -246,14 +272,61 @@ static void a_gap_empties_what_is_kept_but_not_the_sums(void)
     }
 }
 
+/* For a second before a lag is roughly known, and for two then: of the sensor that has run for less. */
+static void filters_must_be_warm(void)
+{
+    const hinge_t arm = arm_usual();
+    for (uint8_t stride = 2u; stride >= 1u; --stride) {
+        setUp();
+        lag.stride = stride;
+        const uint32_t cold = (stride == 2u) ? 19u : 39u; /* ticks of less than 1 and 2 s */
+        for (uint32_t k = 1u; k <= cold + N * stride; ++k) {
+            TEST_ASSERT_EQUAL_FLOAT(0.0f, lag.sums.count);
+            TEST_ASSERT_TRUE((k <= cold + 1u) == (lag.sums.motion_s == 0.0f));
+            jcal_tick_t tick1 = warm_tick(&arm, 0.05 * k, 1, (uint64_t)k * TICK_US);
+            jcal_tick_t tick2 = warm_tick(&arm, 0.05 * k, 2, (uint64_t)k * TICK_US);
+            jcal_tick_t *const colder = (k % 2u == 0u) ? &tick1 : &tick2;
+            colder->since_s = 0.05f * (float)k + 1e-4f;
+            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_add(&lag, &tick1, &tick2));
+        }
+        TEST_ASSERT_EQUAL_FLOAT(1.0f, lag.sums.count);
+    }
+}
+
+/* What was kept before a tick that is left out is of another time than what comes after it. */
+static void a_cold_tick_empties_what_is_kept(void)
+{
+    const hinge_t arm = arm_usual();
+    for (int k = 0; k < 40; ++k) {
+        add_pair(&arm, &arm, 0.0);
+    }
+    const float count = lag.sums.count;
+    jcal_tick_t tick1 = warm_tick(&arm, 0.05 * next, 1, (uint64_t)next * TICK_US);
+    const jcal_tick_t tick2 = warm_tick(&arm, 0.05 * next, 2, (uint64_t)next * TICK_US);
+    tick1.since_s = 0.5f;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_add(&lag, &tick1, &tick2));
+    ++next;
+    for (int k = 0; k < 2 * N - 1; ++k) {
+        add_pair(&arm, &arm, 0.0);
+        TEST_ASSERT_EQUAL_FLOAT(count, lag.sums.count);
+    }
+    add_pair(&arm, &arm, 0.0);
+    TEST_ASSERT_EQUAL_FLOAT(count + 1.0f, lag.sums.count);
+}
+
 static void old_motion_fades(void)
 {
     const hinge_t arm = arm_usual();
+    bool has_faded = false;
+    float before = 0.0f;
     for (int k = 0; k < 1600; ++k) {
         add_pair(&arm, &arm, 0.0);
+        has_faded = has_faded || (lag.sums.motion_s < before);
         TEST_ASSERT_TRUE(lag.sums.motion_s < 30.2f);
+        TEST_ASSERT_TRUE(!has_faded || (lag.sums.motion_s > 14.9f)); /* half of it stays */
+        before = lag.sums.motion_s;
     }
-    TEST_ASSERT_TRUE(lag.sums.motion_s > 14.0f);
+    TEST_ASSERT_TRUE(has_faded);
 }
 
 static void wrong_calls_are_refused(void)
@@ -261,8 +334,8 @@ static void wrong_calls_are_refused(void)
     const hinge_t arm = arm_usual();
     static jcal_lag_t zeros;
     jcal_lag_result_t out;
-    const jcal_tick_t tick1 = hinge_tick(&arm, 1.0, 1, 1000u);
-    jcal_tick_t tick2 = hinge_tick(&arm, 1.0, 2, 1000u);
+    const jcal_tick_t tick1 = warm_tick(&arm, 1.0, 1, 1000u);
+    jcal_tick_t tick2 = warm_tick(&arm, 1.0, 2, 1000u);
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_init(NULL));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_add(NULL, &tick1, &tick2));
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_lag_add(&lag, NULL, &tick2));
@@ -309,6 +382,8 @@ int main(void)
     RUN_TEST(sensors_of_two_joints_have_no_lag);
     RUN_TEST(nothing_is_known_without_motion);
     RUN_TEST(a_gap_empties_what_is_kept_but_not_the_sums);
+    RUN_TEST(filters_must_be_warm);
+    RUN_TEST(a_cold_tick_empties_what_is_kept);
     RUN_TEST(old_motion_fades);
     RUN_TEST(wrong_calls_are_refused);
     RUN_TEST(a_judgement_begins_anew_each_time);

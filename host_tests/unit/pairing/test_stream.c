@@ -296,6 +296,138 @@ static void a_lag_that_is_taken_off_makes_a_hole(void)
     }
 }
 
+/* Sensor 1 comes 0.2 s later, so that sensor 2's readings wait, and a gap of sensor 2 does not spoil those. */
+static void a_gap_of_the_sensor_that_is_ahead_keeps_what_waits(void)
+{
+    for (uint64_t t = 1000000u; t <= 3200000u; t += 10000u) {
+        const bool is_in_gap = (t > 2000000u) && (t < 2150000u);
+        if ((t <= 3000000u) && !is_in_gap) {
+            push(2u, t);
+        }
+        if (t >= 1200000u) {
+            push(1u, t - 200000u);
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(1, jumps());
+    TEST_ASSERT_EQUAL_INT(200 - 15, count); /* 1.01 to 3 s, but for 2.01 to 2.15 s */
+    TEST_ASSERT_EQUAL_UINT32(15u, result().lost1);
+    TEST_ASSERT_EQUAL_UINT32(0u, result().lost2);
+    all_pairs_are_on_lines();
+}
+
+/* The first pairs after a lag was taken off are 0.3 s later also where readings are missing just then. */
+static void a_gap_after_a_lag_was_taken_off_leaves_the_hole(void)
+{
+    for (uint64_t t = 1000000u; t < 3000000u; t += 10000u) {
+        if (t == 2000000u) {
+            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, 0.25f));
+        }
+        push(1u, t);
+        const bool is_in_gap = (t >= 2000000u) && (t < 2150000u);
+        jcal_reading_t reading = on_line(2u, t);
+        reading.t_us += (t < 2000000u) ? 0u : 250000u;
+        TEST_ASSERT_TRUE(is_in_gap || (jcal_pairing_push(&pairing, 2u, &reading) == JCAL_OK));
+        pull_all();
+    }
+    TEST_ASSERT_EQUAL_INT(1, jumps());
+    TEST_ASSERT_EQUAL_UINT64(1990000u, pairs[98].t_us);
+    TEST_ASSERT_EQUAL_UINT64(1990000u + JCAL_PAIRING_HOLE_US + 2u * PERIOD_US, pairs[99].t_us);
+    all_pairs_are_on_lines();
+}
+
+/* At 2^64 us times begin at 0 again: pairs go on, and a hole that was asked for just before does not last for ever. */
+static void time_may_end(void)
+{
+    const uint64_t begin_us = UINT64_MAX - 1000000u;
+    for (uint64_t t = 0u; t < 3000000u; t += 10000u) {
+        if (t == 900000u) {
+            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, 0.02f));
+        }
+        for (unsigned which = 1u; which <= 2u; ++which) {
+            jcal_reading_t reading = on_line(which, t);
+            reading.t_us = begin_us + t;
+            const jcal_status_t status = jcal_pairing_push(&pairing, which, &reading);
+            TEST_ASSERT_TRUE((status == JCAL_OK) || ((which == 2u) && (reading.t_us < 20000u)));
+            pull_all();
+        }
+    }
+    TEST_ASSERT_EQUAL_INT(89 + 194, count); /* 0.89 s, and from 0.03 to 1.96 s of the new time */
+    TEST_ASSERT_EQUAL_INT(1, jumps());
+    for (int k = 0; k < count; ++k) {
+        TEST_ASSERT_EQUAL_UINT64(0u, pairs[k].t_us % PERIOD_US);
+    }
+    TEST_ASSERT_TRUE(pairs[0].t_us > begin_us);
+    TEST_ASSERT_TRUE(pairs[count - 1].t_us > 1900000u);
+}
+
+/* The stretch of a slow sensor begins before the first reading that waits. */
+static void a_sensor_that_began_later_is_met_where_it_began(void)
+{
+    for (uint64_t t = 1035000u; t <= 1105000u; t += 10000u) {
+        push(2u, t);
+    }
+    push(1u, 1000000u);
+    push(1u, 1080000u);
+    TEST_ASSERT_EQUAL_INT(5, count); /* 1.04 to 1.08 s */
+    TEST_ASSERT_EQUAL_UINT64(1040000u, pairs[0].t_us);
+    TEST_ASSERT_EQUAL_UINT32(3u, result().lost1);
+    TEST_ASSERT_EQUAL_UINT(2u, result().waiting);
+    all_pairs_are_on_lines();
+}
+
+static void lags_that_are_taken_off_add_up(void)
+{
+    for (uint64_t t = 1000000u; t <= 1100000u; t += 10000u) {
+        push(1u, t);
+    }
+    TEST_ASSERT_EQUAL_UINT(10u, result().waiting);
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, 0.1f));
+    TEST_ASSERT_EQUAL_UINT(0u, result().waiting);
+    TEST_ASSERT_EQUAL_UINT32(10u, result().lost1); /* those that waited */
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, 0.15f));
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.25f, result().shift_s);
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_pairing_shift(&pairing, 0.06f));
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, -0.55f));
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, -0.3f, result().shift_s);
+}
+
+/* Before the first pair there is no hole to cover a stretch from the old times to the new ones. */
+static void no_stretch_goes_over_a_shift(void)
+{
+    push(2u, 1000000u);
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, -0.03f));
+    for (uint64_t t = 980000u; t <= 1200000u; t += 10000u) {
+        jcal_reading_t reading = on_line(2u, t + 60000u);
+        reading.t_us = t + 30000u;
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_push(&pairing, 2u, &reading));
+        push(1u, t);
+    }
+    TEST_ASSERT_EQUAL_UINT64(1050000u, pairs[0].t_us); /* 1.04 s is the first of the new times */
+    all_pairs_are_on_lines();
+}
+
+/* Every common time that a sensor told of is a pair, waits, or is lost, whatever was pulled. */
+static void every_common_time_is_counted(void)
+{
+    for (int k = 0; k < 400; ++k) {
+        const uint64_t t = 1000000u + (uint64_t)k * PERIOD_US;
+        const jcal_reading_t one = on_line(1u, t);
+        const jcal_reading_t two = on_line(2u, t);
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_push(&pairing, 1u, &one));
+        if (k % 3 == 0) {
+            pull_all();
+        }
+        if ((k % 40) < 28) { /* gaps of 0.13 s */
+            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_push(&pairing, 2u, &two));
+        }
+    }
+    pull_all();
+    const jcal_pairing_result_t out = result();
+    TEST_ASSERT_EQUAL_UINT32((uint32_t)count, out.pairs);
+    TEST_ASSERT_EQUAL_UINT32(399u, out.pairs + out.lost1 + ((out.ahead == 1u) ? out.waiting : 0u));
+    TEST_ASSERT_EQUAL_UINT32(27u * 10u, out.pairs + out.lost2 + ((out.ahead == 2u) ? out.waiting : 0u));
+}
+
 static void wrong_calls_are_refused(void)
 {
     static jcal_pairing_t zeros;
@@ -365,6 +497,13 @@ int main(void)
     RUN_TEST(a_clock_that_begins_anew_is_followed);
     RUN_TEST(what_is_not_pulled_is_lost_and_counted);
     RUN_TEST(a_lag_that_is_taken_off_makes_a_hole);
+    RUN_TEST(a_gap_of_the_sensor_that_is_ahead_keeps_what_waits);
+    RUN_TEST(a_gap_after_a_lag_was_taken_off_leaves_the_hole);
+    RUN_TEST(time_may_end);
+    RUN_TEST(a_sensor_that_began_later_is_met_where_it_began);
+    RUN_TEST(lags_that_are_taken_off_add_up);
+    RUN_TEST(no_stretch_goes_over_a_shift);
+    RUN_TEST(every_common_time_is_counted);
     RUN_TEST(wrong_calls_are_refused);
     RUN_TEST(settings_are_checked);
     return UNITY_END();

@@ -39,6 +39,7 @@ SIDE = 3  # nodes on each side of zero
 NODES = 2 * SIDE + 1
 STRIDE_FIRST = 2  # ticks from node to node
 RANGE_S = 0.25
+WARM_FIRST_S, WARM_S = 1.0, 2.0  # that filters must have run, before the lag is taken off roughly, and then
 MOTION_MAX_S = 30.0  # of motion in the sums, which are halved then
 RIDGE = 3e-4  # share of the mean diagonal
 HEADINGS, TRIAL_ROUNDS, ROUNDS = 4, 3, 2
@@ -93,7 +94,7 @@ def between(lag: float) -> np.ndarray:
 class Lag:
     def __init__(self) -> None:
         self.stride = STRIDE_FIRST
-        self.epochs, self.ticks, self.node_s, self.rate2 = (0, 0), 0, 0.1, 0.0
+        self.epochs, self.ticks, self.node_s, self.rate2, self.since_s = (0, 0), 0, 0.1, 0.0, 0.0
         self.past1: deque[np.ndarray] = deque(maxlen=SIDE + 1)
         self.past2: deque[np.ndarray] = deque(maxlen=NODES)
         self.applied_s, self.left_s, self.known, self.known_bound_s = 0.0, 0.0, False, UNKNOWN_S
@@ -111,9 +112,13 @@ class Lag:
 
     def add(self, tick1: Tick, tick2: Tick) -> None:
         if (tick1.epoch, tick2.epoch) != self.epochs:
-            self.epochs, self.ticks = (tick1.epoch, tick2.epoch), 0
+            self.epochs, self.since_s = (tick1.epoch, tick2.epoch), 0.0
+        self.since_s += tick1.dt_s
+        if self.since_s < (WARM_FIRST_S if self.stride > 1 else WARM_S) - 1e-4:
+            self.ticks = 0
             self.past1.clear()
             self.past2.clear()
+            return
         rate2 = float(tick1.gyr @ tick1.gyr + tick2.gyr @ tick2.gyr)
         self.rate2 += tick1.dt_s / (tick1.dt_s + RATE_SMOOTHING_S) * (rate2 - self.rate2)
         self.sums.motion_s += weights_of(tick1.dt_s, self.rate2).motion_s
