@@ -118,7 +118,7 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
 {
     const jcal_hinge_refine_t *const r = &self->refine;
     const double cost = (double)r->cost;
-    const double noise = fmax(cost / (2.0 * (double)r->units), 0.01);
+    const double noise = fmax(cost / (2.0 * (double)r->time_s / 0.05), 0.01);
     const double counted = (double)r->information * (double)r->information / (double)r->information2;
     const double blocks = fmin(counted, 2.0 * (double)r->blocks);
     double scatter[4][4];

@@ -262,7 +262,7 @@ static void information_below_one_reading_at_one_radian_is_none(void)
     jcal_hinge_point_set(&engine.coarse.point, jcal_vec3(1.0f, 0.0f, 0.0f), jcal_vec3(0.0f, 1.0f, 0.0f));
     jcal_hinge_refine_restart(refine, &engine.coarse.point);
     refine->blocks = 100.0f;
-    refine->units = 100.0f;
+    refine->time_s = 5.0f;
     refine->information = 100.0f;
     refine->information2 = 100.0f;
     refine->across = 1e8f; /* so that a tilt of any size is small beside what it would change */
