@@ -148,6 +148,9 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
     /* Variance along each eigenvector, summed up per axis. */
     const double pull = 10.0 + (6000.0 * noise / fmax((double)r->blocks, 1.0));
     const double mismatch = (double)self->cfg.rate_mismatch;
+    /* Of the residual beyond 5 mrad/s a share acts alike: 14 times its share of the rate along the axis, at most 1.1; as a variance. */
+    const double quiet = 0.005 / (double)self->cfg.gyr_noise_rad_s;
+    const double left = fmax(cost - (quiet * quiet * (double)r->time_s / 0.05), 0.0);
     double covariance[2][3] = {{0.0}};
     *largest = 0.0;
     for (int k = 0; k < 4; ++k) {
@@ -156,7 +159,9 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
         for (int i = 0; i < 4; ++i) {
             v[i] = vectors[i][k];
             const double lever = (double)r->lever[i / 2];
-            systematic += v[i] * v[i] * mismatch * mismatch * lever * lever / (double)r->along[i / 2] / (3.84 + 2.15);
+            const double along = (double)r->along[i / 2];
+            const double alike = fmin(14.0 * sqrt(left / along), 1.1);
+            systematic += v[i] * v[i] * ((mismatch * mismatch * lever * lever / along) + (alike * alike * left)) / (3.84 + 2.15);
         }
         const double ratio = dquadratic(scatter, v) / dquadratic(all, v);
         const double inflation = dblend(fmax(ratio, 0.25 * noise), noise, blocks);

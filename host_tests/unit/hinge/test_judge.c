@@ -158,6 +158,8 @@ static void set_fit(float error_rad_s)
     engine.refine.time_s = 5.0f;
     engine.refine.joint = 100.0f / (noise * noise);
     engine.refine.cost = engine.refine.joint * error_rad_s * error_rad_s;
+    engine.refine.along[0] = 1e6f * engine.refine.joint; /* so that what is left hardly moves the axes */
+    engine.refine.along[1] = engine.refine.along[0];
 }
 
 /* The specific forces say nothing of the pairing; the rates have compared both for `time_s`, the other costing `ratio`
