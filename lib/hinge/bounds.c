@@ -31,14 +31,12 @@
 /// Share of the power of the accelerometer residual that may act alike in every sample.
 #define ACC_SYSTEMATIC 0.1f
 /// Share of the residual that is taken to act alike in every sample, per share that it has of the rate along the axis, and at most.
-/// The residual that a quiet gyroscope has, rad/s, is noise.
-#define LEFT_ALIKE 24.0f
+/// The residual that a quiet gyroscope has, rad/s, is noise. Scatter of the blocks over that of independent readings, beyond 1, at
+/// which all of the residual is taken to follow the motion. docs/METHOD.md, section 5, says where these are from.
+#define LEFT_ALIKE 30.0f
 #define LEFT_ALIKE_MAX 1.1f
 #define QUIET_RAD_S 0.005f
-/// Scatter of the blocks over that of independent readings, beyond 1, at which all of the residual's power counts so, and the least
-/// share of it that does. docs/METHOD.md, section 5, says where these four are from.
-#define FOLLOWS_SCATTER 4.0f
-#define FOLLOWS_MIN 0.3f
+#define FOLLOWS_SCATTER 3.0f
 /// Assumed standard deviation of the place to which the refined axes are pulled, rad.
 #define COARSE_RAD 0.05f
 /// Share of the rate across the axis that a tilt within the bound may make up for; beyond it the phase of a block is not
@@ -159,15 +157,17 @@ static float mean_scatter(const jcal_hinge_refine_t *refine)
 ///
 /// What is left of the rates, r, is to a part such a mismatch, of scale, of times, of filters, of a second motion: it follows the
 /// motion. It moves axis i by at most sum |l_i| |r| / sum l_i^2 <= rms(r) / rms(l_i). How much of it does so shows where blocks
-/// scatter more than independent readings would; and good sensors on rigid segments leave 2 to 3 % of the rate along the axis, which
+/// scatter more than independent readings would: 8 times where rates have another scale or time, 1 to 2 times where soft tissue or
+/// vibration goes its own way. And good sensors on rigid segments leave 2 to 3 % of the rate along the axis, which
 /// to the most part averages out: the more is left, the more of it is taken to act alike.
 static void find_systematic(const jcal_hinge_refine_t *refine, const jcal_hinge_config_t *cfg, float of_axis[2])
 {
     const float mismatch = cfg->rate_mismatch;
     const float quiet = QUIET_RAD_S / cfg->gyr_noise_rad_s;
     const float beyond = (mean_scatter(refine) / jcal_hinge_refine_noise(refine)) - 1.0f;
-    const float follows = jcal_min(jcal_max(beyond / FOLLOWS_SCATTER, FOLLOWS_MIN), 1.0f);
-    const float left = follows * jcal_max(refine->cost - (quiet * quiet * refine->time_s / JCAL_HINGE_UNIT_S), 0.0f);
+    const float follows = jcal_min(jcal_max(beyond / FOLLOWS_SCATTER, 0.0f), 1.0f);
+    const float left =
+        follows * follows * jcal_max(refine->cost - (quiet * quiet * refine->time_s / JCAL_HINGE_UNIT_S), 0.0f);
     for (unsigned axis = 0u; axis < 2u; ++axis) {
         const float along = jcal_max(refine->along[axis], 1e-20f);
         const float power = refine->lever[axis] * refine->lever[axis] / along;

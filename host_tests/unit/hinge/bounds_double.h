@@ -148,11 +148,11 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
     /* Variance along each eigenvector, summed up per axis. */
     const double pull = 10.0 + (6000.0 * noise / fmax((double)r->blocks, 1.0));
     const double mismatch = (double)self->cfg.rate_mismatch;
-    /* Of the residual beyond 5 mrad/s a share acts alike: 24 times its share of the rate along the axis, at most 1.1; as a variance.
-       All of its power where blocks scatter five times as much as independent readings, from 0.3 of it where they do not. */
+    /* Of the residual beyond 5 mrad/s a share acts alike: 30 times its share of the rate along the axis, at most 1.1; as a variance.
+       All of it where blocks scatter four times as much as independent readings, none where they scatter no more than those. */
     const double quiet = 0.005 / (double)self->cfg.gyr_noise_rad_s;
-    const double follows = fmin(fmax(((met / noise) - 1.0) / 4.0, 0.3), 1.0);
-    const double left = follows * fmax(cost - (quiet * quiet * (double)r->time_s / 0.05), 0.0);
+    const double follows = fmin(fmax(((met / noise) - 1.0) / 3.0, 0.0), 1.0);
+    const double left = follows * follows * fmax(cost - (quiet * quiet * (double)r->time_s / 0.05), 0.0);
     double covariance[2][3] = {{0.0}};
     *largest = 0.0;
     for (int k = 0; k < 4; ++k) {
@@ -162,7 +162,7 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
             v[i] = vectors[i][k];
             const double lever = (double)r->lever[i / 2];
             const double along = (double)r->along[i / 2];
-            const double alike = fmin(24.0 * sqrt(left / along), 1.1);
+            const double alike = fmin(30.0 * sqrt(left / along), 1.1);
             systematic +=
                 v[i] * v[i] * ((mismatch * mismatch * lever * lever / along) + (alike * alike * left)) / (3.84 + 2.15);
         }
