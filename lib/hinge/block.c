@@ -132,6 +132,5 @@ void jcal_hinge_block_add(jcal_hinge_refine_t *self, const jcal_hinge_config_t *
     block->match = jcal_plane_add(block->match, weight, jcal_plane_against(seen, view2.across));
     block->match_other = jcal_plane_add(block->match_other, weight, jcal_plane_against(seen_other, other));
     block->power2 += weight * jcal_plane_norm2(view2.across);
-    block->units += units;
     block->time_s += sample->dt_s;
 }

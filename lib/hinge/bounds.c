@@ -30,6 +30,13 @@
 #define PRETENDED_SHARE 0.5f
 /// Share of the power of the accelerometer residual that may act alike in every sample.
 #define ACC_SYSTEMATIC 0.1f
+/// Share of the residual that is taken to act alike in every sample, per share that it has of the rate along the axis, and at most.
+/// The residual that a quiet gyroscope has, rad/s, is noise. Scatter of the blocks over that of independent readings, beyond 1, at
+/// which all of the residual is taken to follow the motion. docs/METHOD.md, section 5, says where these are from.
+#define LEFT_ALIKE 30.0f
+#define LEFT_ALIKE_MAX 1.1f
+#define QUIET_RAD_S 0.005f
+#define FOLLOWS_SCATTER 3.0f
 /// Assumed standard deviation of the place to which the refined axes are pulled, rad.
 #define COARSE_RAD 0.05f
 /// Share of the rate across the axis that a tilt within the bound may make up for; beyond it the phase of a block is not
@@ -143,13 +150,29 @@ static float mean_scatter(const jcal_hinge_refine_t *refine)
     return 0.25f * sum;
 }
 
-/// What does not average out, as a power beside the scatter: a mismatch of the rates by a share of |w| may act alike in every
-/// sample. It then moves axis i by at most sum |l_i| |w| / sum l_i^2 times that share.
-static void find_systematic(const jcal_hinge_refine_t *refine, float mismatch, float of_axis[2])
+/// What does not average out, as a power beside the scatter.
+///
+/// A mismatch of the rates by a share of |w| may act alike in every sample. It then moves axis i by at most
+/// sum |l_i| |w| / sum l_i^2 times that share.
+///
+/// What is left of the rates, r, is to a part such a mismatch, of scale, of times, of filters, of a second motion: it follows the
+/// motion. It moves axis i by at most sum |l_i| |r| / sum l_i^2 <= rms(r) / rms(l_i). How much of it does so shows where blocks
+/// scatter more than independent readings would: 8 times where rates have another scale or time, 1 to 2 times where soft tissue or
+/// vibration goes its own way. And good sensors on rigid segments leave 2 to 3 % of the rate along the axis, which
+/// to the most part averages out: the more is left, the more of it is taken to act alike.
+static void find_systematic(const jcal_hinge_refine_t *refine, const jcal_hinge_config_t *cfg, float of_axis[2])
 {
+    const float mismatch = cfg->rate_mismatch;
+    const float quiet = QUIET_RAD_S / cfg->gyr_noise_rad_s;
+    const float beyond = (mean_scatter(refine) / jcal_hinge_refine_noise(refine)) - 1.0f;
+    const float follows = jcal_min(jcal_max(beyond / FOLLOWS_SCATTER, 0.0f), 1.0f);
+    const float left =
+        follows * follows * jcal_max(refine->cost - (quiet * quiet * refine->time_s / JCAL_HINGE_UNIT_S), 0.0f);
     for (unsigned axis = 0u; axis < 2u; ++axis) {
-        const float power = refine->lever[axis] * refine->lever[axis] / jcal_max(refine->along[axis], 1e-20f);
-        of_axis[axis] = mismatch * mismatch * power / (ONE_DIRECTION + SECOND_DIRECTION);
+        const float along = jcal_max(refine->along[axis], 1e-20f);
+        const float power = refine->lever[axis] * refine->lever[axis] / along;
+        const float alike = jcal_min(LEFT_ALIKE * LEFT_ALIKE * (left / along), LEFT_ALIKE_MAX * LEFT_ALIKE_MAX);
+        of_axis[axis] = ((mismatch * mismatch * power) + (alike * left)) / (ONE_DIRECTION + SECOND_DIRECTION);
     }
 }
 
@@ -177,7 +200,7 @@ bool jcal_hinge_bounds(const jcal_hinge_refine_t *refine, const jcal_hinge_momen
         return false;
     }
     float systematic[2];
-    find_systematic(refine, cfg->rate_mismatch, systematic);
+    find_systematic(refine, cfg, systematic);
     float covariance[2][3] = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     out->inflation = 0.0f;
     for (unsigned k = 0u; k < TILTS; ++k) {

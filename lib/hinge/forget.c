@@ -18,7 +18,6 @@
 static void fade_counts(jcal_hinge_refine_t *self, float share)
 {
     self->cost *= share;
-    self->units *= share;
     self->joint *= share;
     self->across *= share;
     self->blocks *= share;

@@ -75,9 +75,9 @@ static sign_t compare_signs(const jcal_hinge_evidence_t *self)
         (self->amount->weight_acc * self->amount->weight_acc) / jcal_max(self->amount->weight_acc2, 1e-20f);
     const float acc_odds = (acc_time_s / ACC_MEMORY_S) * jcal_ln(ratio_of(acc_other, acc_same));
     const float turn_odds = (refine->sign_time_s / TURN_MEMORY_S) * jcal_ln(ratio_of(refine->other, refine->same));
-    const float turn_scale = refine->units / jcal_max(refine->time_s, 1e-9f);
     sign.evidence = 0.5f * (acc_odds + turn_odds);
-    sign.margin = ratio_of(acc_other + (turn_scale * refine->other), acc_same + (turn_scale * refine->same));
+    sign.margin =
+        ratio_of(acc_other + (refine->other / JCAL_HINGE_UNIT_S), acc_same + (refine->same / JCAL_HINGE_UNIT_S));
     return sign;
 }
 
@@ -87,9 +87,9 @@ static bool has_rival(const jcal_hinge_evidence_t *self, float cost, float infla
     if (self->search->rounds == 0u) {
         return true;
     }
-    const jcal_hinge_place_t *const rival = &self->search->rival;
+    const jcal_hinge_note_t *const rival = self->search->rival;
     jcal_hinge_point_t there = self->coarse->point;
-    jcal_hinge_point_set(&there, rival->j1, rival->j2);
+    jcal_hinge_point_set(&there, jcal_hinge_noted(rival[0]), jcal_hinge_noted(rival[1]));
     if (!self->search->has_rival || jcal_hinge_same_lines(&self->coarse->point, &there)) {
         return false;
     }
@@ -102,7 +102,7 @@ static bool has_rival(const jcal_hinge_evidence_t *self, float cost, float infla
 static bool fits(const jcal_hinge_evidence_t *self, float slack)
 {
     const float unit = self->cfg->gyr_noise_rad_s * self->cfg->gyr_noise_rad_s;
-    const float units = jcal_max(self->refine->units, 1e-9f);
+    const float units = jcal_max(self->refine->time_s / JCAL_HINGE_UNIT_S, 1e-9f);
     const float error = sqrtf(unit * self->refine->cost / units);
     const float joint = sqrtf(unit * self->refine->joint / units);
     return error < (slack * ((MISFIT_SHARE * joint) + MISFIT_NOISE_RAD_S));
@@ -217,7 +217,7 @@ static void report(const jcal_hinge_evidence_t *self, jcal_hinge_verdict_t *verd
     verdict->bound1_rad = bounds->bound1_rad;
     verdict->bound2_rad = bounds->bound2_rad;
     verdict->sign_margin = sign->margin;
-    verdict->sign_progress = jcal_max(0.0f, jcal_min(1.0f, sign->evidence / SIGN_EVIDENCE_MIN));
+    verdict->sign_progress = (uint8_t)(255.0f * jcal_max(0.0f, jcal_min(1.0f, sign->evidence / SIGN_EVIDENCE_MIN)));
 }
 
 /// Why there are no bounds.

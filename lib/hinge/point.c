@@ -13,6 +13,8 @@
 
 /// cos 11.5 deg: two minima closer than this are one.
 #define SAME_COSINE 0.98f
+/// One, in a note: a unit vector's component, which rounding may have made a little longer than one, fits in 16 bits.
+#define NOTE_ONE 32760.0f
 
 void jcal_hinge_axis_set(jcal_hinge_axis_t *axis, jcal_vec3_t j)
 {
@@ -28,6 +30,22 @@ void jcal_hinge_point_set(jcal_hinge_point_t *point, jcal_vec3_t j1, jcal_vec3_t
 {
     jcal_hinge_axis_set(&point->axis1, j1);
     jcal_hinge_axis_set(&point->axis2, j2);
+}
+
+static int16_t note_component(float c)
+{
+    return (int16_t)((NOTE_ONE * c) + ((c < 0.0f) ? -0.5f : 0.5f));
+}
+
+jcal_hinge_note_t jcal_hinge_note(jcal_vec3_t j)
+{
+    const jcal_hinge_note_t note = {{note_component(j.x), note_component(j.y), note_component(j.z)}};
+    return note;
+}
+
+jcal_vec3_t jcal_hinge_noted(jcal_hinge_note_t note)
+{
+    return jcal_vec3_normalise(jcal_vec3((float)note.c[0], (float)note.c[1], (float)note.c[2]));
 }
 
 static void axis_move(jcal_hinge_axis_t *axis, float du, float dv)

@@ -26,6 +26,12 @@ void jcal_hinge_point_set(jcal_hinge_point_t *point, jcal_vec3_t j1, jcal_vec3_t
 /// Moves both axes by d: along u1, v1, u2, v2, rad.
 void jcal_hinge_point_move(jcal_hinge_point_t *point, const float d[4]);
 
+/// Keeps a unit vector in mind; rounding turns it by 0.002 deg at most.
+jcal_hinge_note_t jcal_hinge_note(jcal_vec3_t j);
+
+/// The unit vector that was kept.
+jcal_vec3_t jcal_hinge_noted(jcal_hinge_note_t note);
+
 /// True if a and b mean the same axes, whatever their pairing: both lines closer than about 11 deg.
 bool jcal_hinge_same_lines(const jcal_hinge_point_t *a, const jcal_hinge_point_t *b);
 

@@ -61,13 +61,19 @@
 /// Residual power below which nothing is believed, in units of the assumed noise power.
 #define NOISE_MIN 0.01f
 
+/// The sums begin where the axes are now.
+static void drop_anchors(jcal_hinge_refine_t *self)
+{
+    self->anchor[0] = jcal_hinge_note(self->point.axis1.j);
+    self->anchor[1] = jcal_hinge_note(self->point.axis2.j);
+}
+
 void jcal_hinge_refine_restart(jcal_hinge_refine_t *self, const jcal_hinge_point_t *point)
 {
     const jcal_hinge_point_t at = *point; /* the caller may hand over self->point */
     *self = (jcal_hinge_refine_t){0};
     self->point = at;
-    self->anchor.j1 = at.axis1.j;
-    self->anchor.j2 = at.axis2.j;
+    drop_anchors(self);
     self->phase.re = 1.0f;
     jcal_hinge_block_begin(&self->block);
 }
@@ -89,8 +95,7 @@ void jcal_hinge_refine_go(jcal_hinge_refine_t *self, const jcal_hinge_point_t *p
         const float same = jcal_vec3_dot(axes[other]->j, to[other]);
         if (is_known(self, other) && !is_known(self, axis) && (fabsf(same) > SAME_COSINE)) {
             jcal_hinge_axis_set(axes[axis], jcal_vec3_scale(to[axis], (same < 0.0f) ? -1.0f : 1.0f));
-            self->anchor.j1 = self->point.axis1.j;
-            self->anchor.j2 = self->point.axis2.j;
+            drop_anchors(self);
             return;
         }
     }
@@ -117,7 +122,7 @@ float jcal_hinge_refine_blocks_of(const jcal_hinge_refine_t *self, unsigned axis
 
 float jcal_hinge_refine_noise(const jcal_hinge_refine_t *self)
 {
-    return jcal_max(self->cost / jcal_max(2.0f * self->units, 1e-9f), NOISE_MIN);
+    return jcal_max(self->cost / jcal_max(2.0f * self->time_s / JCAL_HINGE_UNIT_S, 1e-9f), NOISE_MIN);
 }
 
 float jcal_hinge_refine_pull(const jcal_hinge_refine_t *self)
@@ -145,14 +150,14 @@ static void offset(const jcal_hinge_axis_t *axis, jcal_vec3_t to, float out[2])
 }
 
 /// Sums that were linearised far from where an axis is now say less of it.
-static void give_up_what_is_far(jcal_hinge_refine_t *self, unsigned axis, const jcal_hinge_axis_t *now,
-                                jcal_vec3_t *anchor)
+static void give_up_what_is_far(jcal_hinge_refine_t *self, unsigned axis)
 {
+    const jcal_hinge_axis_t *const now = (axis == 0u) ? &self->point.axis1 : &self->point.axis2;
     float away[2];
-    offset(now, *anchor, away);
+    offset(now, jcal_hinge_noted(self->anchor[axis]), away);
     const float reach = ANCHOR_REACH * sqrtf(self->across / jcal_max(self->along[axis], 1e-20f));
     if (jcal_gn_length(away, 2u) > jcal_min(ANCHOR_RAD, reach)) {
-        *anchor = now->j;
+        self->anchor[axis] = jcal_hinge_note(now->j);
         jcal_hinge_refine_forget(self, axis, ANCHOR_SHARE);
     }
 }
@@ -183,8 +188,8 @@ static void move(jcal_hinge_refine_t *self, const float d[UNKNOWNS])
     }
     jcal_hinge_slip_move(&self->slip, d);
     jcal_hinge_point_move(&self->point, d);
-    give_up_what_is_far(self, 0u, &self->point.axis1, &self->anchor.j1);
-    give_up_what_is_far(self, 1u, &self->point.axis2, &self->anchor.j2);
+    give_up_what_is_far(self, 0u);
+    give_up_what_is_far(self, 1u);
 }
 
 /// gain <- H_tb H_bb^-1 from the whole matrix. False if that is singular.
@@ -303,7 +308,6 @@ static void add_block(jcal_hinge_refine_t *self, float reach)
         self->lean[i] += trace * tilts[i];
     }
     jcal_sym_rank1(self->scatter, TILTS, tilts, 1.0f);
-    self->slip.units += block->units;
     self->slip.time_s += block->time_s;
     self->information += trace;
     self->information2 += trace * trace;
@@ -312,7 +316,6 @@ static void add_block(jcal_hinge_refine_t *self, float reach)
         self->told2[axis] += told[axis] * told[axis];
     }
     self->blocks += 1.0f;
-    self->units += block->units;
     self->joint += block->joint;
     self->time_s += block->time_s;
 }
@@ -320,8 +323,9 @@ static void add_block(jcal_hinge_refine_t *self, float reach)
 static void close_block(jcal_hinge_refine_t *self, const jcal_hinge_config_t *cfg, const jcal_hinge_coarse_t *coarse)
 {
     const jcal_hinge_block_t *const block = &self->block;
+    const float units = block->time_s / JCAL_HINGE_UNIT_S;
     const float power1 = block->matrix[jcal_sym_at(PHASE, PHASE)];
-    const float reach = power1 + (PHASE_FLOOR * block->units);
+    const float reach = power1 + (PHASE_FLOOR * units);
     const float strength = jcal_plane_norm(block->match);
     const float off = (block->match.re < 0.0f) ? strength : fabsf(block->match.im);
     const bool sure = off <= (PHASE_MAX * reach);
@@ -333,7 +337,7 @@ static void close_block(jcal_hinge_refine_t *self, const jcal_hinge_config_t *cf
         add_block(self, reach);
         self->cost += cost;
         self->slip.cost += cost;
-        const float least = SIGN_FLOOR * jcal_hinge_refine_noise(self) * block->units;
+        const float least = SIGN_FLOOR * jcal_hinge_refine_noise(self) * units;
         const float share = block->time_s / (power + least);
         self->same += share * cost;
         self->other += share * cost_other;

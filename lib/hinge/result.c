@@ -20,7 +20,8 @@ static void tell_verdict(const jcal_hinge_t *self, jcal_hinge_result_t *result)
     result->sign_margin = verdict->sign_margin;
     result->progress_axis1 = jcal_head_progress(verdict->bound1_rad, self->cfg.max_bound_rad);
     result->progress_axis2 = jcal_head_progress(verdict->bound2_rad, self->cfg.max_bound_rad);
-    result->progress_sign = (self->cfg.sign_hint != JCAL_SIGN_UNKNOWN) ? 1.0f : verdict->sign_progress;
+    result->progress_sign =
+        (self->cfg.sign_hint != JCAL_SIGN_UNKNOWN) ? 1.0f : ((float)verdict->sign_progress / 255.0f);
     const bool first = verdict->bound1_rad >= verdict->bound2_rad;
     jcal_head_complain(&result->head, jcal_gate_complaint(&self->gate), first ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2);
 }

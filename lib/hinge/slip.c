@@ -3,6 +3,7 @@
 /// Small slips. See hinge/slip.h.
 #include "hinge/slip.h"
 
+#include "hinge/block.h"
 #include "hinge/model.h"
 #include "math/chol.h"
 #include "math/scalar.h"
@@ -31,7 +32,6 @@ void jcal_hinge_slip_fade(jcal_hinge_slip_t *self, float time_s)
     }
     jcal_sym_scale(self->matrix, TILTS, share);
     self->cost *= share;
-    self->units *= share;
     self->time_s *= share;
 }
 
@@ -63,7 +63,7 @@ bool jcal_hinge_slip_alarm(const jcal_hinge_slip_t *self, float allowed_rad)
     for (unsigned i = 0u; i < TILTS; ++i) {
         explained += d[i] * self->gradient[i];
     }
-    const float readings = 2.0f * self->units;
+    const float readings = 2.0f * self->time_s / JCAL_HINGE_UNIT_S;
     const float left = jcal_max(self->cost - explained, NOISE_MIN * readings) / readings;
     const float most = jcal_max(jcal_gn_length(&d[0], 2u), jcal_gn_length(&d[2], 2u));
     return (explained > (EXPLAINED_MIN * left)) && (most > allowed_rad);

@@ -9,6 +9,7 @@
 #include "hinge/refine.h"
 #include "hinge/search.h"
 #include "hinge/slip.h"
+#include "hinge/smooth.h"
 #include "hinge/stream.h"
 #include "hinge/weigh.h"
 #include "joint/sign.h"
@@ -329,6 +330,16 @@ void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair)
     }
 }
 
+void jcal_hinge_take(jcal_hinge_t *self, const jcal_pair_t *pair)
+{
+    const float since_s = (float)(pair->t_us - self->last_us) * MICROSECONDS;
+    if (!self->has_last || (since_s > STEP_MAX_S)) {
+        jcal_hinge_smooth_begin(&self->smooth, pair);
+    }
+    const jcal_pair_t smooth = jcal_hinge_smooth(&self->smooth, pair, jcal_min(since_s, STEP_MAX_S));
+    jcal_hinge_consume(self, &smooth);
+}
+
 jcal_status_t jcal_hinge_step(jcal_hinge_t *self)
 {
     uint32_t slot;
@@ -340,7 +351,7 @@ jcal_status_t jcal_hinge_step(jcal_hinge_t *self)
     }
     const jcal_pair_t pair = self->inbox.slots[slot];
     jcal_ring_release(&self->inbox.ring);
-    jcal_hinge_consume(self, &pair);
+    jcal_hinge_take(self, &pair);
     return JCAL_OK;
 }
 

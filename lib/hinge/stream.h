@@ -9,7 +9,10 @@
 /// Begins anew with a valid config.
 void jcal_hinge_start(jcal_hinge_t *self, const jcal_hinge_config_t *config);
 
-/// Works off one pair that has passed a gate, as step does with one from the inbox.
+/// Takes one pair that has passed a gate, as step does with one from the inbox: smooths its rates and works it off.
+void jcal_hinge_take(jcal_hinge_t *self, const jcal_pair_t *pair);
+
+/// Works off one pair with smooth rates.
 void jcal_hinge_consume(jcal_hinge_t *self, const jcal_pair_t *pair);
 
 /// One slice of the global check, and what follows from it.

@@ -204,7 +204,7 @@ jcal_status_t jcal_hinge_window_step(jcal_hinge_window_t *self)
         jcal_hinge_window_solve_slice(self, &rows);
     }
     const bool knew = self->guard.coarse.has_point;
-    jcal_hinge_consume(&self->guard, &pair);
+    jcal_hinge_take(&self->guard, &pair);
     if (knew && !self->guard.coarse.has_point) { /* a sensor has moved: what was selected is of another joint */
         empty(self);
     }

@@ -118,7 +118,7 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
 {
     const jcal_hinge_refine_t *const r = &self->refine;
     const double cost = (double)r->cost;
-    const double noise = fmax(cost / (2.0 * (double)r->units), 0.01);
+    const double noise = fmax(cost / (2.0 * (double)r->time_s / 0.05), 0.01);
     const double counted = (double)r->information * (double)r->information / (double)r->information2;
     const double blocks = fmin(counted, 2.0 * (double)r->blocks);
     double scatter[4][4];
@@ -148,6 +148,11 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
     /* Variance along each eigenvector, summed up per axis. */
     const double pull = 10.0 + (6000.0 * noise / fmax((double)r->blocks, 1.0));
     const double mismatch = (double)self->cfg.rate_mismatch;
+    /* Of the residual beyond 5 mrad/s a share acts alike: 30 times its share of the rate along the axis, at most 1.1; as a variance.
+       All of it where blocks scatter four times as much as independent readings, none where they scatter no more than those. */
+    const double quiet = 0.005 / (double)self->cfg.gyr_noise_rad_s;
+    const double follows = fmin(fmax(((met / noise) - 1.0) / 3.0, 0.0), 1.0);
+    const double left = follows * follows * fmax(cost - (quiet * quiet * (double)r->time_s / 0.05), 0.0);
     double covariance[2][3] = {{0.0}};
     *largest = 0.0;
     for (int k = 0; k < 4; ++k) {
@@ -156,7 +161,10 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
         for (int i = 0; i < 4; ++i) {
             v[i] = vectors[i][k];
             const double lever = (double)r->lever[i / 2];
-            systematic += v[i] * v[i] * mismatch * mismatch * lever * lever / (double)r->along[i / 2] / (3.84 + 2.15);
+            const double along = (double)r->along[i / 2];
+            const double alike = fmin(30.0 * sqrt(left / along), 1.1);
+            systematic +=
+                v[i] * v[i] * ((mismatch * mismatch * lever * lever / along) + (alike * alike * left)) / (3.84 + 2.15);
         }
         const double ratio = dquadratic(scatter, v) / dquadratic(all, v);
         const double inflation = dblend(fmax(ratio, 0.25 * noise), noise, blocks);

@@ -79,7 +79,7 @@ static void a_small_slip_behind_noise_is_noticed_too(void)
 {
     for (int sensor = 0; sensor < 2; ++sensor) {
         motion_t motion = motion_lively(1);
-        motion.gyr_noise_rad_s = 0.1;
+        motion.gyr_noise_rad_s = 0.06;
         setUp();
         run(&engine, &motion, 0, 3u * RUN);
         TEST_ASSERT_EQUAL_INT(JCAL_READY, result_of(&engine).head.status);

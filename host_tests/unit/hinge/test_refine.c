@@ -229,7 +229,6 @@ static void counts_of_a_block_are_what_they_say(void)
     }
     assert_near(joint, got->joint, SUM_TOL * joint);
     assert_near(across, got->across, SUM_TOL * across);
-    assert_near(4.0, got->units, 4.0 * SUM_TOL); /* 0.2 s, 0.05 s each */
     assert_near(0.2, got->time_s, 0.2 * SUM_TOL);
     const double trace = (double)(got->matrix[jcal_sym_at(0, 0)] + got->matrix[jcal_sym_at(1, 1)] +
                                   got->matrix[jcal_sym_at(2, 2)] + got->matrix[jcal_sym_at(3, 3)]);
@@ -494,7 +493,7 @@ static void a_step_leads_to_where_sums_pull_and_prior_balance(void)
     feed_with_ledger(&motion, 50, 330);
     jcal_hinge_lin_t acc;
     jcal_hinge_linearise_acc(&engine.coarse.moments, &engine.cfg, &engine.refine.point, &acc);
-    const double noise = (double)engine.refine.cost / (2.0 * (double)engine.refine.units);
+    const double noise = (double)engine.refine.cost / (2.0 * (double)engine.refine.time_s / 0.05);
     const double pull = 10.0 + (6000.0 * noise / (double)engine.refine.blocks);
     for (size_t i = 0; i < 4; ++i) {
         double axis[3];
@@ -646,11 +645,11 @@ static void fading_scales_every_sum_and_nothing_else(void)
     TEST_ASSERT_TRUE(before.block.time_s > 0.0f);
     jcal_hinge_refine_fade(&engine.refine, 0.25f);
     jcal_hinge_refine_t expected = before;
-    float *const single[] = {&expected.information, &expected.information2, &expected.cost,        &expected.units,
-                             &expected.joint,       &expected.across,       &expected.along[0],    &expected.along[1],
-                             &expected.lever[0],    &expected.lever[1],     &expected.blocks,      &expected.time_s,
-                             &expected.same,        &expected.other,        &expected.sign_time_s, &expected.told[0],
-                             &expected.told[1],     &expected.told2[0],     &expected.told2[1]};
+    float *const single[] = {&expected.information, &expected.information2, &expected.cost,     &expected.joint,
+                             &expected.across,      &expected.along[0],     &expected.along[1], &expected.lever[0],
+                             &expected.lever[1],    &expected.blocks,       &expected.time_s,   &expected.same,
+                             &expected.other,       &expected.sign_time_s,  &expected.told[0],  &expected.told[1],
+                             &expected.told2[0],    &expected.told2[1]};
     for (size_t k = 0; k < (sizeof single / sizeof single[0]); ++k) {
         TEST_ASSERT_TRUE(*single[k] > 0.0f);
         *single[k] *= 0.25f; /* exact */
@@ -903,8 +902,9 @@ static void an_axis_far_from_where_its_sums_began_keeps_half_of_them(void)
         start_beside(&motion, 0.5f, 0.5f);
         feed(&motion, 0, 300);
         jcal_hinge_t far = engine;
-        jcal_vec3_t *const anchor = (axis == 0) ? &far.refine.anchor.j1 : &far.refine.anchor.j2;
-        *anchor = beside(*anchor, jcal_vec3(0.6f, 0.0f, 0.8f), 4.0f); /* limit: 0.05 rad, 2.9 deg */
+        jcal_hinge_note_t *const anchor = &far.refine.anchor[axis];
+        *anchor = jcal_hinge_note(
+            beside(jcal_hinge_noted(*anchor), jcal_vec3(0.6f, 0.0f, 0.8f), 4.0f)); /* limit: 0.05 rad, 2.9 deg */
         const float blocks = engine.refine.blocks;
         uint32_t k = 300;
         while (engine.refine.blocks == blocks) { /* to the end of the block */
@@ -920,8 +920,8 @@ static void an_axis_far_from_where_its_sums_began_keeps_half_of_them(void)
         TEST_ASSERT_EQUAL_FLOAT(0.5f * near.along[axis], far.refine.along[axis]);
         TEST_ASSERT_EQUAL_FLOAT(near.along[1 - axis], far.refine.along[1 - axis]);
         TEST_ASSERT_EQUAL_MEMORY(&near.point, &far.refine.point, sizeof near.point);
-        TEST_ASSERT_EQUAL_MEMORY((axis == 0) ? &near.point.axis1.j : &near.point.axis2.j,
-                                 (axis == 0) ? &far.refine.anchor.j1 : &far.refine.anchor.j2, sizeof(jcal_vec3_t));
+        const jcal_hinge_note_t here = jcal_hinge_note((axis == 0) ? near.point.axis1.j : near.point.axis2.j);
+        TEST_ASSERT_EQUAL_MEMORY(&here, &far.refine.anchor[axis], sizeof here);
         double m[2][64];
         double g[2][8];
         for (int i = 0; i < 64; ++i) {

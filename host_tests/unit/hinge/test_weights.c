@@ -2,6 +2,7 @@
 /// @file
 /// Tests of lib/hinge/stream.c: how much each sample counts, docs/METHOD.md section 2, and how much work it pays for.
 #include "hinge/stream.h"
+#include "hinge/weigh.h"
 #include "math/sym.h"
 #include "unit/hinge/motion.h"
 #include "unity.h"
@@ -242,6 +243,40 @@ static void with_few_slices_a_step_does_one_or_closes_a_block(void)
     TEST_ASSERT_TRUE(closed > 20u); /* 20 s of blocks of 0.2 to 0.6 s */
 }
 
+/* Counts 20 s in which sensor 1 turns by 1 rad/s and sensor 2 by `amplitude` more and less, `hz` times a second; returns the excitation
+   that the formula gives: the square of the difference beyond 3 % and 0.02 rad/s, while its integral, fading in a second, is above 0.04. */
+static double count_trembling(double amplitude, double hz, jcal_hinge_amount_t *amount)
+{
+    const double dt = 0.005;
+    double bend = 0.0;
+    double excitation = 0.0;
+    *amount = (jcal_hinge_amount_t){0};
+    for (int k = 0; k < 4000; ++k) {
+        const float rate2 = (float)(1.0 + (amplitude * sin(2.0 * 3.14159265358979 * hz * dt * (double)k)));
+        const jcal_hinge_sample_t sample = {.w1_2 = 1.0f, .w2_2 = rate2 * rate2, .dt_s = (float)dt};
+        jcal_hinge_count(amount, &sample);
+        const double difference = (double)rate2 - 1.0;
+        const double excess = fmax(fabs(difference) - (0.03 * fmax((double)rate2, 1.0)) - 0.02, 0.0);
+        bend += dt * (((difference > 0.0) ? excess : -excess) - bend);
+        excitation += (fabs(bend) > 0.04) ? dt * excess * excess : 0.0;
+    }
+    return excitation;
+}
+
+static void a_joint_that_trembles_has_not_moved(void)
+{
+    jcal_hinge_amount_t amount;
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, (float)count_trembling(0.9, 12.0, &amount));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, amount.excitation);
+    TEST_ASSERT_TRUE(amount.motion > 20.0f);
+    const double hz[4] = {0.1, 0.5, 1.0, 2.0}; /* with what of it bends the joint far enough */
+    for (int i = 0; i < 4; ++i) {
+        const double expected = count_trembling(0.7, hz[i], &amount);
+        TEST_ASSERT_TRUE(expected > 0.03);
+        TEST_ASSERT_TRUE(fabs((double)amount.excitation - expected) < 1e-3 * expected);
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -254,5 +289,6 @@ int main(void)
     RUN_TEST(the_work_per_second_does_not_depend_on_the_rate);
     RUN_TEST(the_config_says_how_much_work_is_done_per_second);
     RUN_TEST(with_few_slices_a_step_does_one_or_closes_a_block);
+    RUN_TEST(a_joint_that_trembles_has_not_moved);
     return UNITY_END();
 }

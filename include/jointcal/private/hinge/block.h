@@ -22,7 +22,6 @@ typedef struct {
     float gradient[9];         ///< Half the gradient in the same unknowns.
     float acc_score[4];        ///< Half the gradient of the accelerometer part.
     float power2;              ///< Weighted sum of |z2|^2; that of |z1|^2 is in the matrix.
-    float units;               ///< Time in units of one reading.
     float joint;               ///< Weighted sum of the joint's own squared rate.
     float time_s;              ///< Time in the block.
     jcal_plane_t match;        ///< How z1, turned, matches z2.

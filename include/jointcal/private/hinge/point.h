@@ -6,6 +6,8 @@
 
 #include "jointcal/types.h"
 
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -26,6 +28,11 @@ typedef struct {
 typedef struct {
     jcal_vec3_t j1, j2;
 } jcal_hinge_place_t;
+
+/// An axis that is kept for later, to 0.002 deg; lib/hinge/point.h.
+typedef struct {
+    int16_t c[3];
+} jcal_hinge_note_t;
 
 #ifdef __cplusplus
 }

@@ -14,9 +14,9 @@ extern "C" {
 
 /// The refined axes and the sums that they rest on.
 typedef struct {
-    jcal_hinge_point_t point;   ///< The axes.
-    jcal_hinge_place_t anchor;  ///< Where they were when the sums began.
-    float bias[4];              ///< Biases of the gyroscopes along u1, v1, u2, v2, in standard deviations.
+    jcal_hinge_point_t point;     ///< The axes.
+    jcal_hinge_note_t anchor[2];  ///< Where they were when the sums began.
+    float bias[4];                ///< Biases of the gyroscopes along u1, v1, u2, v2, in standard deviations.
     jcal_hinge_block_t block;
     jcal_hinge_view_t last1;  ///< The previous sample.
     jcal_hinge_view_t last2;
@@ -32,7 +32,6 @@ typedef struct {
     float told[2];       ///< The same for the tilts of each axis alone ...
     float told2[2];      ///< ... and of its squares.
     float cost;          ///< Sum of the squared residuals, in units of the assumed noise.
-    float units;         ///< Readings that went in.
     float joint;         ///< Sum of the joint's own squared rate, in the units of the cost ...
     float along[2];      ///< ... of that along each axis ...
     float lever[2];      ///< ... of its magnitude times that of both rates ...

@@ -12,9 +12,9 @@ extern "C" {
 
 /// Where the search for other minima stands.
 typedef struct {
-    jcal_hinge_place_t probe;  ///< Where the probe is.
-    jcal_hinge_place_t rival;  ///< Best other minimum.
-    jcal_hinge_place_t flip;   ///< Best axes of the other sign pairing.
+    jcal_hinge_place_t probe;    ///< Where the probe is.
+    jcal_hinge_note_t rival[2];  ///< Best other minimum.
+    jcal_hinge_note_t flip[2];   ///< Best axes of the other sign pairing.
     float damping;
     uint8_t rounds;      ///< Complete rounds over all starts since the joint first moved.
     uint8_t start;       ///< Which start the probe came from.

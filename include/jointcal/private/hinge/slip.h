@@ -15,7 +15,6 @@ typedef struct {
     float gradient[4];  ///< Half the gradient of the tilts, biases eliminated.
     float matrix[10];   ///< Packed 4 x 4.
     float cost;         ///< Squared residuals, in units of the assumed noise.
-    float units;        ///< Readings.
     float time_s;
 } jcal_hinge_slip_t;
 

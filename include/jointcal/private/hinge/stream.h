@@ -8,6 +8,7 @@
 #include "jointcal/private/hinge/coarse.h"
 #include "jointcal/private/hinge/refine.h"
 #include "jointcal/private/hinge/search.h"
+#include "jointcal/private/hinge/smooth.h"
 #include "jointcal/private/hinge/verdict.h"
 #include "jointcal/private/hinge/weigh.h"
 #include "jointcal/private/inbox.h"
@@ -22,6 +23,7 @@ typedef struct {
     jcal_hinge_config_t cfg;
     jcal_gate_t gate;
     jcal_inbox_t inbox;
+    jcal_hinge_smooth_t smooth;
     jcal_hinge_coarse_t coarse;
     jcal_hinge_refine_t refine;
     jcal_hinge_search_t search;

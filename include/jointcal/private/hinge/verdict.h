@@ -16,10 +16,10 @@ typedef struct {
     float bound1_rad;
     float bound2_rad;
     float sign_margin;
-    float sign_progress;
     uint8_t status, weak, hint, reason;  ///< As in jcal_hinge_result_t.
     uint8_t agreed;                      ///< Judgements in a row that found nothing missing.
     bool contradicted;                   ///< No hinge explains the sums.
+    uint8_t sign_progress;               ///< Evidence for the sign pairing, in 255ths of what is needed.
     bool after_doubt;                    ///< Sums that no hinge explained were given up; those since then are few.
 } jcal_hinge_verdict_t;
 
