@@ -59,6 +59,7 @@ MEASUREMENTS = {
     "chain": "hip and knee: SAL15 simulated, ingredient by ingredient, a person's thigh",
     "sensor": "the stage of one sensor: beside VQF and optics, cold starts, bias",
     "sensor_faults": "what wireless sensors do to hinges: vibration, straps, lag, drift, scale, dead and exchanged readings",
+    "sensor_health": "what one sensor's health says of faults, of good recordings, and of faults put into them",
     "pairing": "the lag of two sensors: recordings and simulated joints told a lag, unrelated pairs",
     "cost": "time and memory, beside qmt",
 }
