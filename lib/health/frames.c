@@ -18,8 +18,9 @@
 /// Units of the specific force that the first block of a window has.
 #define UNITS_OF_G 32.0f
 #define INT8_MOST 127.0f
-/// A window tells if gravity turns by so much in it, in the mean square of a share.
-#define TURNS_MIN 0.01f
+/// A window tells if gravity turns by so much in it, in the mean square of a share. In the first such windows all ways are tried, whatever they say.
+#define TURNS_MIN 0.02f
+#define TRIALS_FIRST 4u
 /// Sums halve at so many windows.
 #define WINDOWS_MOST 60000u
 /// Turns of half a block beyond which a way is not followed, rad.
@@ -182,8 +183,9 @@ static void finish_way(jcal_health_frames_t *self)
     }
     if (self->way == JCAL_HEALTH_STILL) {
         self->score_now[1] = open;
-        if (!(self->score_now[0] > JCAL_HEALTH_OPEN)) {
-            self->fits = (uint16_t)(self->fits + ((open > TURNS_MIN) ? 1u : 0u));
+        const bool is_first = (self->trials < TRIALS_FIRST) && (open > TURNS_MIN);
+        if (!is_first && !(self->score_now[0] > JCAL_HEALTH_OPEN)) {
+            self->fits = (uint16_t)(self->fits + 1u);
             halve_if_long(self);
             jcal_health_frames_break(self);
             return;

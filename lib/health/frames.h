@@ -11,8 +11,8 @@
 /// det(P) P' of the rates, since their vector product is one: so 48 ways of the rates are all there are, and forces that all have the
 /// other sign are no way at all.
 ///
-/// Nearly always the rates fit as they stand, so that way is tried first, and the way of no rates, which says whether the window tells anything. All others are
-/// tried in windows only that the rates leave open by more than JCAL_HEALTH_OPEN.
+/// Nearly always the rates fit as they stand, so that way is tried first, and the way of no rates, which says whether the window tells anything. All
+/// others are tried in the first windows that tell, and then in those that the rates leave open by more than JCAL_HEALTH_OPEN.
 #ifndef JCAL_HEALTH_FRAMES_H
 #define JCAL_HEALTH_FRAMES_H
 

@@ -10,13 +10,13 @@
 #include <math.h>
 
 #define STRETCH_S 0.5f
-/// Steps of the fifth quantile: up where a stretch lies above it, four times as far down where it lies below.
+/// Steps of the tenth part: up where a stretch lies above it, nine times as far down where it lies below.
 #define STEP_UP 1.02f
-#define STEP_DOWN 0.92f
+#define STEP_DOWN 0.837f
 /// Stretches in which the steps are larger, so that the first one does not count for long.
 #define STRETCHES_FIRST 20.0f
 #define STEP_UP_FIRST 1.08f
-#define STEP_DOWN_FIRST 0.73f
+#define STEP_DOWN_FIRST 0.5f
 #define QUIET_LEAST 1e-6f
 #define MOVING_RAD_S 0.3f
 #define READINGS_MOST 100000.0f
@@ -37,7 +37,8 @@ void jcal_health_motion_break(jcal_health_motion_t *self)
 
 static void end_stretch(jcal_health_motion_t *self)
 {
-    const float rms = jcal_max(sqrtf(self->sum2 / self->count), QUIET_LEAST);
+    const float rms =
+        jcal_max(sqrtf(self->sum2 / jcal_max(self->count - (float)JCAL_HEALTH_BEFORE, 1.0f)), QUIET_LEAST);
     const bool is_early = self->stretches < STRETCHES_FIRST;
     if (!(self->stretches > 0.0f)) {
         self->quiet_rad_s = rms;
@@ -48,7 +49,7 @@ static void end_stretch(jcal_health_motion_t *self)
     }
     self->stretches = jcal_min(self->stretches + 1.0f, READINGS_MOST);
     jcal_health_motion_break(self);
-    self->count = 2.0f; /* the last two rates are there */
+    self->count = (float)JCAL_HEALTH_BEFORE; /* the last rates are there */
 }
 
 static void add_total(jcal_health_motion_t *self, float rate2, float acc2, float fast2)
@@ -60,23 +61,33 @@ static void add_total(jcal_health_motion_t *self, float rate2, float acc2, float
     self->fast2 += (fast2 - self->fast2) * share;
 }
 
+/// The fourth difference over 16, of the last rates and this one.
+static jcal_vec3_t fourth_difference(const jcal_vec3_t before[JCAL_HEALTH_BEFORE], jcal_vec3_t now)
+{
+    const jcal_vec3_t ends = jcal_vec3_add(before[0], now);
+    const jcal_vec3_t sides = jcal_vec3_scale(jcal_vec3_add(before[1], before[3]), 4.0f);
+    const jcal_vec3_t sum = jcal_vec3_add(jcal_vec3_sub(ends, sides), jcal_vec3_scale(before[2], 6.0f));
+    return jcal_vec3_scale(sum, 1.0f / 16.0f);
+}
+
 void jcal_health_motion_add(jcal_health_motion_t *self, const jcal_imu_t *imu, float dt_s)
 {
     const jcal_vec3_t w = imu->gyr_rad_s;
     const float rate2 = jcal_vec3_dot(w, w);
-    const jcal_vec3_t fast = jcal_vec3_scale(
-        jcal_vec3_add(jcal_vec3_sub(w, jcal_vec3_scale(self->before[1], 2.0f)), self->before[0]), 0.25f);
-    const bool is_third = self->count >= 2.0f;
-    const float fast2 = is_third ? jcal_vec3_dot(fast, fast) : self->fast2;
+    const jcal_vec3_t fast = fourth_difference(self->before, w);
+    const bool is_full = self->count >= (float)JCAL_HEALTH_BEFORE;
+    const float fast2 = is_full ? jcal_vec3_dot(fast, fast) : self->fast2;
     add_total(self, rate2, jcal_vec3_dot(imu->acc_m_s2, imu->acc_m_s2), fast2);
     if (rate2 > (MOVING_RAD_S * MOVING_RAD_S)) {
         self->motion_s += dt_s;
     }
-    self->sum2 += is_third ? fast2 : 0.0f;
+    self->sum2 += is_full ? fast2 : 0.0f;
     self->count += 1.0f;
     self->length_s += dt_s;
-    self->before[0] = self->before[1];
-    self->before[1] = w;
+    for (unsigned k = 1u; k < JCAL_HEALTH_BEFORE; ++k) {
+        self->before[k - 1u] = self->before[k];
+    }
+    self->before[JCAL_HEALTH_BEFORE - 1] = w;
     if (self->length_s >= STRETCH_S) {
         end_stretch(self);
     }

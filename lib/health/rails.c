@@ -21,6 +21,8 @@
 #define SAME_1024 26u
 /// Readings near the top of a flat peak.
 #define TOP_MIN 3u
+/// Readings on the way down, to 80 % of the top, for so many near the top: a smooth peak has about as many.
+#define FLAT_RATIO 2u
 /// Flat peaks at one level, and how many times as many as what speaks against it.
 #define HITS_MIN 4u
 #define HITS_RATIO 2u
@@ -33,7 +35,7 @@ static uint16_t part_of(uint16_t value, uint32_t share_1024)
 
 static bool is_flat(const jcal_health_rail_t *rail)
 {
-    return (rail->top >= TOP_MIN) && (rail->top > rail->side);
+    return (rail->top >= TOP_MIN) && (rail->top > (FLAT_RATIO * rail->side));
 }
 
 /// A flat peak moves the level to itself if it is higher; what was counted at the old one was none.
@@ -62,10 +64,8 @@ static void count_peak(jcal_health_rail_t *rail)
 static void go_on(jcal_health_rail_t *rail, uint16_t value)
 {
     if (value > rail->peak) {
-        const bool is_far = part_of(value, SIDE_1024) > rail->peak;
-        const bool is_near = part_of(value, TOP_1024) <= rail->peak;
-        if (!is_near) {
-            rail->side = is_far ? 0u : (uint8_t)(rail->side + rail->top);
+        if (part_of(value, TOP_1024) > rail->peak) {
+            rail->side = 0u;
             rail->top = 0u;
         }
         rail->peak = value;

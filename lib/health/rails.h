@@ -3,7 +3,7 @@
 /// Where components stop. Private.
 ///
 /// A component that clips has flat peaks, and all of them at one value; a calibration of the factory, after the clipping, spreads that value by a few
-/// per cent. A peak is flat if more of its readings are within 2.5 % of its top than below that, down to 20 %: of a smooth peak half as many are.
+/// per cent. A peak is flat if twice as many of its readings are within 2.5 % of its top as there are on the way down to 80 %: of a smooth peak as many are.
 /// One large value is no peak of that kind, so a glitch is not believed, and neither are rest and the range of gravity, for they lie below the floors.
 #ifndef JCAL_HEALTH_RAILS_H
 #define JCAL_HEALTH_RAILS_H

@@ -37,14 +37,16 @@
 #define OPEN_MIN 0.015f
 #define OPEN_TIMES 4.0f
 #define NEXT_TIMES 1.5f
-/// Rates that fit leave less open than this in the mean.
+/// Rates that fit leave less open than this in the mean, and any other way so many times as much.
 #define OPEN_FINE 0.03f
+#define FINE_TIMES 2.0f
 /// Scale: 95 % bound as so many standard deviations and a floor, of what accelerometers are wrong by; largest bound at which it is said.
-#define DEVIATIONS 2.5f
-#define SCALE_FLOOR 0.01f
-#define SCALE_BOUND_MOST 0.04f
-/// Vibration that is named, rad/s; stretches of half a second.
-#define VIBRATION_RAD_S 0.08f
+#define DEVIATIONS 3.0f
+#define SCALE_FLOOR 0.0125f
+#define SCALE_BOUND_MOST 0.08f
+/// Vibration that is named, rad/s, and its least part of all that is fast: impacts come and go, vibration stays. Stretches of half a second.
+#define VIBRATION_RAD_S 0.03f
+#define STEADY_SHARE 0.4f
 #define STRETCHES_MIN 20.0f
 
 typedef jcal_health_result_t result_t;
@@ -145,6 +147,14 @@ static unsigned best_way(const float *score, float *next)
     return best;
 }
 
+/// What windows leave open in the mean, with rates as they stand.
+static float mean_open(const jcal_health_frames_t *frames)
+{
+    const float windows = (float)frames->trials + (float)frames->fits;
+    const float open = frames->score[JCAL_HEALTH_AS_IS] + (JCAL_HEALTH_OPEN * (float)frames->fits);
+    return (windows >= (float)TRIALS_MIN) ? (open / windows) : 1.0f;
+}
+
 static void judge_frames(const jcal_health_t *self, result_t *out)
 {
     const jcal_health_frames_t *const frames = &self->frames;
@@ -154,13 +164,12 @@ static void judge_frames(const jcal_health_t *self, result_t *out)
     const float as_is = score[JCAL_HEALTH_AS_IS];
     const float mean = as_is / jcal_max((float)frames->trials, 1.0f);
     const bool is_clear = (frames->trials >= TRIALS_CLEAR) && (as_is > (OPEN_TIMES_CLEAR * score[best]));
-    const bool is_tried = ((frames->trials >= TRIALS_MIN) || is_clear) && (frames->trials > (2u * frames->fits));
+    const bool is_tried = (frames->trials >= TRIALS_MIN) || is_clear;
     const bool is_deg =
         is_tried && (out->rms_rad_s > RATE_UNIT_RAD_S) && (score[JCAL_HEALTH_DEG] < (RATE_UNIT_SHARE * as_is));
     const bool is_other = is_tried && !is_deg && (mean > OPEN_MIN) && (as_is > (OPEN_TIMES * score[best]));
-    const bool is_right = !is_deg && !is_other &&
-                          ((frames->fits >= TRIALS_MIN) ||
-                           (is_tried && (mean < OPEN_FINE) && (score[JCAL_HEALTH_STILL] > (3.0f * as_is))));
+    const bool is_right =
+        is_tried && !is_deg && (best == JCAL_HEALTH_AS_IS) && (mean < OPEN_FINE) && (next > (FINE_TIMES * as_is));
     say(out, JCAL_FINDING_RATE_UNIT, is_deg || is_right, is_deg, out->rms_rad_s);
     say(out, JCAL_FINDING_FRAMES, is_other || is_right, is_other,
         is_other ? (as_is / jcal_max(score[best], 1e-6f)) : 1.0f);
@@ -172,17 +181,24 @@ static void judge_frames(const jcal_health_t *self, result_t *out)
     }
 }
 
-/// Gravity in motion is right only as far as rates are.
+/// True if what follows from rates and forces together is right: they fit each other, and no value is spoilt.
+static bool rates_fit(const jcal_health_t *self, const result_t *out)
+{
+    return !is_named(out, JCAL_FINDING_FRAMES) && !is_named(out, JCAL_FINDING_RATE_UNIT) &&
+           !is_named(out, JCAL_FINDING_CLIPPED) && !is_named(out, JCAL_FINDING_DEAD) &&
+           !is_named(out, JCAL_FINDING_HELD) && (mean_open(&self->frames) < OPEN_FINE);
+}
+
+/// Without gravity no window fits, so that is judged first.
 static void judge_gravity(const jcal_health_t *self, result_t *out)
 {
     const bool rests = self->rest.rest_s >= REST_MIN_S;
-    const bool rates_fit = (out->state[JCAL_FINDING_FRAMES] != JCAL_HEALTH_NAMED) &&
-                           (out->state[JCAL_FINDING_RATE_UNIT] != JCAL_HEALTH_NAMED);
-    const bool moves = (self->scale.gravity_s >= GRAVITY_MIN_S) && rates_fit;
+    const bool moves = (self->scale.gravity_s >= GRAVITY_MIN_S) && !is_named(out, JCAL_FINDING_FRAMES) &&
+                       !is_named(out, JCAL_FINDING_RATE_UNIT);
     const float gravity = rests ? self->rest.gravity_m_s2 : self->scale.gravity_m_s2;
     const float rms = sqrtf(jcal_max(self->motion.acc2, 0.0f));
     const bool is_none = rests ? (gravity < NO_GRAVITY_M_S2) : (gravity < (NO_GRAVITY_SHARE * rms));
-    const bool is_told = rests || (out->state[JCAL_FINDING_FRAMES] == JCAL_HEALTH_FINE);
+    const bool is_told = rests || (moves && rates_fit(self, out));
     out->rest_s = self->rest.rest_s;
     say(out, JCAL_FINDING_NO_GRAVITY, rests || moves, is_none, gravity);
     say(out, JCAL_FINDING_GRAVITY_OFF, is_told && !is_none,
@@ -193,12 +209,10 @@ static void judge_scale(const jcal_health_t *self, result_t *out)
 {
     const jcal_health_scale_found_t found = jcal_health_scale_solve(&self->scale);
     const float bound = (DEVIATIONS * found.deviation) + SCALE_FLOOR;
-    const bool is_spoilt = (out->state[JCAL_FINDING_FRAMES] != JCAL_HEALTH_FINE) ||
-                           is_named(out, JCAL_FINDING_CLIPPED) || is_named(out, JCAL_FINDING_DEAD) ||
-                           is_named(out, JCAL_FINDING_HELD) || is_named(out, JCAL_FINDING_NO_GRAVITY);
-    out->scale_bound = jcal_min(bound, 1.0f);
-    say(out, JCAL_FINDING_SCALE, !is_spoilt && (bound <= SCALE_BOUND_MOST), fabsf(found.scale - 1.0f) > bound,
-        found.scale);
+    const bool is_known =
+        rates_fit(self, out) && !is_named(out, JCAL_FINDING_NO_GRAVITY) && (bound <= SCALE_BOUND_MOST);
+    out->scale_bound = is_known ? bound : 1.0f;
+    say(out, JCAL_FINDING_SCALE, is_known, fabsf(found.scale - 1.0f) > bound, found.scale);
 }
 
 static void judge_motion(const jcal_health_t *self, result_t *out)
@@ -207,8 +221,17 @@ static void judge_motion(const jcal_health_t *self, result_t *out)
     out->rms_rad_s = sqrtf(jcal_max(motion->rate2, 0.0f));
     out->motion_s = motion->motion_s;
     out->fast_share = (motion->rate2 > 0.0f) ? jcal_min(motion->fast2 / motion->rate2, 1.0f) : 0.0f;
-    say(out, JCAL_FINDING_VIBRATES, (motion->stretches >= STRETCHES_MIN) && !is_named(out, JCAL_FINDING_HELD),
-        motion->quiet_rad_s > VIBRATION_RAD_S, motion->quiet_rad_s);
+}
+
+static void judge_vibration(const jcal_health_t *self, result_t *out)
+{
+    const jcal_health_motion_t *const motion = &self->motion;
+    const bool is_known = (motion->stretches >= STRETCHES_MIN) && !is_named(out, JCAL_FINDING_HELD) &&
+                          !is_named(out, JCAL_FINDING_RATE_UNIT);
+    const float all_rad_s = sqrtf(jcal_max(motion->fast2, 0.0f));
+    const bool is_steady = motion->quiet_rad_s > (STEADY_SHARE * all_rad_s);
+    say(out, JCAL_FINDING_VIBRATES, is_known, is_steady && (motion->quiet_rad_s > VIBRATION_RAD_S),
+        motion->quiet_rad_s);
 }
 
 jcal_status_t jcal_health_get(const jcal_health_t *self, jcal_health_result_t *out)
@@ -226,6 +249,7 @@ jcal_status_t jcal_health_get(const jcal_health_t *self, jcal_health_result_t *o
     judge_frames(self, out);
     judge_gravity(self, out);
     judge_scale(self, out);
+    judge_vibration(self, out);
     return JCAL_OK;
 }
 

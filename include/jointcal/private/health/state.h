@@ -19,6 +19,8 @@ extern "C" {
 #define JCAL_HEALTH_PARTS 4
 /// Ways to read the rates: 48 signed permutations, then rates in deg/s, then no rates at all.
 #define JCAL_HEALTH_WAYS 50
+/// Rates before this one that are kept.
+#define JCAL_HEALTH_BEFORE 4
 
 /// A way to read three columns: x, y, z are `sign` times the column `column` (0, 1, 2).
 typedef struct {
@@ -47,6 +49,8 @@ typedef struct {
 typedef struct {
     jcal_health_past_t fast, slow;
     float epoch_s;       ///< Time since both began.
+    float next_s;        ///< Time that is summed when the scale is judged next.
+    float taken;         ///< Scale that rates are multiplied by before; 0: 1.
     float squares[10];   ///< Weighted sum of J J' (4 x 4, packed): bias x, y, z in units of 0.01 rad/s, scale.
     float products[4];   ///< The same of J e.
     float left;          ///< The same of e e.
@@ -70,14 +74,15 @@ typedef struct {
     jcal_vec3_t mean[JCAL_HEALTH_PARTS];  ///< Sum of specific forces of each part, in the frame of the window's begin.
     float score[JCAL_HEALTH_WAYS];        ///< Sum over windows of what a way leaves open.
     float score_now[2];                   ///< Of this window: rates as they stand, no rates.
-    uint16_t trials, fits;  ///< Windows in which all ways were tried, and in which rates fit as they stand.
+    uint16_t trials;                      ///< Windows in which all ways were tried ...
+    uint16_t fits;                        ///< ... and others that rates as they stand fit.
 } jcal_health_frames_t;
 
 /// One side of one component: where it stops.
 typedef struct {
     uint16_t level;         ///< Where its flat peaks end.
     uint16_t peak;          ///< Of the excursion that is going on; 0: none.
-    uint8_t top, side;      ///< Readings near that peak, and below it.
+    uint8_t top, side;      ///< Readings near that peak, and on the way down from it.
     uint8_t hits, against;  ///< Flat peaks at the level, and what speaks against a stop there.
 } jcal_health_rail_t;
 
@@ -111,9 +116,9 @@ typedef struct {
 
 /// Rates that change from reading to reading.
 typedef struct {
-    jcal_vec3_t before[2];        ///< The last two rates.
-    float sum2, count, length_s;  ///< Of the stretch of half a second.
-    float quiet_rad_s;            ///< Root mean square of what is fast, in the quietest fifth of the stretches.
+    jcal_vec3_t before[JCAL_HEALTH_BEFORE];  ///< The last rates.
+    float sum2, count, length_s;             ///< Of the stretch of half a second.
+    float quiet_rad_s;  ///< Root mean square of what is fast, in the quietest tenth of the stretches.
     float stretches;
     float rate2, acc2;  ///< Mean squares of the rate and of the specific force ...
     float fast2;        ///< ... and of what is fast in the rate.
