@@ -9,12 +9,12 @@
 
 #include <math.h>
 
-#define STRETCH_S 0.5f
+#define STRETCH_S 0.099f
 /// Steps of the tenth part: up where a stretch lies above it, nine times as far down where it lies below.
 #define STEP_UP 1.02f
 #define STEP_DOWN 0.837f
 /// Stretches in which the steps are larger, so that the first one does not count for long.
-#define STRETCHES_FIRST 20.0f
+#define STRETCHES_FIRST 50.0f
 #define STEP_UP_FIRST 1.08f
 #define STEP_DOWN_FIRST 0.5f
 #define QUIET_LEAST 1e-6f

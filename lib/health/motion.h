@@ -3,7 +3,7 @@
 /// How much a sensor moves, how much of it is vibration, and what it feels at rest. Private.
 ///
 /// What is fast is the fourth difference of the rate over 16: all of it at half the frequency of the readings, 12 % at a fifth, 2 % at an eighth. Motion
-/// has some of it at impacts, after which skin rings at 10 Hz or so; vibration has it always, so the quietest tenth of stretches of half a second tells.
+/// has some of it at impacts, after which skin rings at 10 Hz or so; vibration has it always, so the quietest tenth of stretches of a tenth of a second tells.
 #ifndef JCAL_HEALTH_MOTION_H
 #define JCAL_HEALTH_MOTION_H
 

@@ -27,6 +27,7 @@
 #define GRAVITY_MIN_S 10.0f
 #define NO_GRAVITY_M_S2 0.5f
 #define NO_GRAVITY_SHARE 0.4f
+#define NO_GRAVITY_MOVING_M_S2 6.0f
 /// Rates whose root mean square is no person's, rad/s, and how much less rates in deg/s leave open.
 #define RATE_UNIT_RAD_S 8.0f
 #define RATE_UNIT_SHARE 0.5f
@@ -43,11 +44,14 @@
 /// Scale: 95 % bound as so many standard deviations and a floor, of what accelerometers are wrong by; largest bound at which it is said.
 #define DEVIATIONS 3.0f
 #define SCALE_FLOOR 0.0125f
-#define SCALE_BOUND_MOST 0.08f
-/// Vibration that is named, rad/s, and its least part of all that is fast: impacts come and go, vibration stays. Stretches of half a second.
-#define VIBRATION_RAD_S 0.03f
-#define STEADY_SHARE 0.4f
-#define STRETCHES_MIN 20.0f
+#define SCALE_BOUND_MOST 0.04f
+/// A scale that is far off is said with a wider one.
+#define SCALE_FAR 0.15f
+#define SCALE_BOUND_FAR 0.08f
+/// Vibration that is named, rad/s, and its least part of all that is fast: impacts come and go, vibration stays. Stretches of a tenth of a second.
+#define VIBRATION_RAD_S 0.024f
+#define STEADY_SHARE 0.65f
+#define STRETCHES_MIN 100.0f
 
 typedef jcal_health_result_t result_t;
 
@@ -197,7 +201,8 @@ static void judge_gravity(const jcal_health_t *self, result_t *out)
                        !is_named(out, JCAL_FINDING_RATE_UNIT);
     const float gravity = rests ? self->rest.gravity_m_s2 : self->scale.gravity_m_s2;
     const float rms = sqrtf(jcal_max(self->motion.acc2, 0.0f));
-    const bool is_none = rests ? (gravity < NO_GRAVITY_M_S2) : (gravity < (NO_GRAVITY_SHARE * rms));
+    const bool is_none = rests ? (gravity < NO_GRAVITY_M_S2)
+                               : ((gravity < (NO_GRAVITY_SHARE * rms)) && (gravity < NO_GRAVITY_MOVING_M_S2));
     const bool is_told = rests || (moves && rates_fit(self, out));
     out->rest_s = self->rest.rest_s;
     say(out, JCAL_FINDING_NO_GRAVITY, rests || moves, is_none, gravity);
@@ -209,10 +214,11 @@ static void judge_scale(const jcal_health_t *self, result_t *out)
 {
     const jcal_health_scale_found_t found = jcal_health_scale_solve(&self->scale);
     const float bound = (DEVIATIONS * found.deviation) + SCALE_FLOOR;
-    const bool is_known =
-        rates_fit(self, out) && !is_named(out, JCAL_FINDING_NO_GRAVITY) && (bound <= SCALE_BOUND_MOST);
+    const float off = fabsf(found.scale - 1.0f);
+    const bool is_known = rates_fit(self, out) && !is_named(out, JCAL_FINDING_NO_GRAVITY) &&
+                          (bound <= ((off > SCALE_FAR) ? SCALE_BOUND_FAR : SCALE_BOUND_MOST));
     out->scale_bound = is_known ? bound : 1.0f;
-    say(out, JCAL_FINDING_SCALE, is_known, fabsf(found.scale - 1.0f) > bound, found.scale);
+    say(out, JCAL_FINDING_SCALE, is_known, off > bound, found.scale);
 }
 
 static void judge_motion(const jcal_health_t *self, result_t *out)

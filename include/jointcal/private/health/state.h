@@ -117,7 +117,7 @@ typedef struct {
 /// Rates that change from reading to reading.
 typedef struct {
     jcal_vec3_t before[JCAL_HEALTH_BEFORE];  ///< The last rates.
-    float sum2, count, length_s;             ///< Of the stretch of half a second.
+    float sum2, count, length_s;             ///< Of the stretch of a tenth of a second.
     float quiet_rad_s;  ///< Root mean square of what is fast, in the quietest tenth of the stretches.
     float stretches;
     float rate2, acc2;  ///< Mean squares of the rate and of the specific force ...
