@@ -21,7 +21,7 @@
 /// Longest distance of readings over which rates can be summed, us.
 #define STEP_MOST_US 105000u
 
-typedef char jcal_health_fits_its_budget[(sizeof(jcal_health_t) <= 1264u) ? 1 : -1];
+typedef char jcal_health_fits_its_budget[(sizeof(jcal_health_t) <= 1296u) ? 1 : -1];
 
 jcal_status_t jcal_health_init(jcal_health_t *self)
 {
@@ -29,7 +29,7 @@ jcal_status_t jcal_health_init(jcal_health_t *self)
         return JCAL_ERR_ARG;
     }
     jcal_clear(self, sizeof *self);
-    jcal_health_frames_break(&self->frames);
+    jcal_health_frames_begin(&self->frames);
     self->is_ready = true;
     return JCAL_OK;
 }
@@ -56,8 +56,10 @@ static void start(jcal_health_t *self, const jcal_imu_t *imu)
 
 static void end_block(jcal_health_t *self)
 {
-    jcal_health_scale_add(&self->scale, &self->block);
-    jcal_health_frames_add(&self->frames, &self->block);
+    if (jcal_health_scale_add(&self->scale, &self->block)) {
+        jcal_health_frames_begin(&self->frames);
+    }
+    jcal_health_frames_add(&self->frames, &self->block, jcal_health_scale_taken(&self->scale));
     jcal_health_rest_add(&self->rest, &self->block);
     jcal_clear(&self->block, sizeof self->block);
 }

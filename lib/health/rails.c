@@ -64,7 +64,8 @@ static void count_peak(jcal_health_rail_t *rail)
 static void go_on(jcal_health_rail_t *rail, uint16_t value)
 {
     if (value > rail->peak) {
-        if (part_of(value, TOP_1024) > rail->peak) {
+        if (part_of(value, TOP_1024) > rail->base) {
+            rail->base = value;
             rail->side = 0u;
             rail->top = 0u;
         }
@@ -86,8 +87,7 @@ static void add_side(jcal_health_rail_t *rail, float value, uint16_t floor)
         if (whole < floor) {
             return;
         }
-        rail->top = 0u;
-        rail->side = 0u;
+        rail->base = 0u;
     }
     if (whole >= part_of(rail->peak, END_1024)) {
         go_on(rail, whole);

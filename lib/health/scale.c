@@ -27,13 +27,15 @@
 #define LEFT_MIN 0.02f
 /// Sums halve when they reach this time, s: the scale of an hour ago does not count for ever, and single precision does not run out.
 #define MEMORY_S 600.0f
-/// A scale that is off by more than this, and by more than so many standard deviations, is taken off, since the equations are linear near 1 only; judged when
-/// so much time is summed, s. And how far it may go.
+/// A scale that is off by more than this, the first time and later, and by more than so many standard deviations, is taken off, since the equations are linear near 1 only; judged when
+/// so much time is summed, s. How far it may go, and how often it is done.
 #define TAKE_SHARE 0.07f
+#define TAKE_AGAIN_SHARE 0.02f
 #define TAKE_DEVIATIONS 2.0f
 #define TAKE_S 10.0f
 #define TAKEN_LEAST 0.5f
 #define TAKEN_MOST 2.0f
+#define TIMES_MOST 3u
 /// Longest turn of a block that is followed, rad: of a longer one the turn back within it, of second order, is not right, and readings of 100 Hz are too few.
 #define TURN_MAX_RAD 1.0f
 
@@ -147,14 +149,9 @@ static void sum(jcal_health_scale_t *self, float length_s)
     }
 }
 
-static float taken_of(const jcal_health_scale_t *self)
-{
-    return (self->taken > 0.0f) ? self->taken : 1.0f;
-}
-
 jcal_health_scale_found_t jcal_health_scale_solve(const jcal_health_scale_t *self)
 {
-    jcal_health_scale_found_t found = {taken_of(self), SCALE_PRIOR};
+    jcal_health_scale_found_t found = {jcal_health_scale_taken(self), SCALE_PRIOR};
     if (!(self->weight > 0.0f)) {
         return found;
     }
@@ -182,43 +179,40 @@ jcal_health_scale_found_t jcal_health_scale_solve(const jcal_health_scale_t *sel
     }
     const float readings = jcal_max(3.0f * self->length_s / FAST_S, 1.0f);
     const float left = jcal_max(((unit * self->left) - explained) / readings, LEFT_MIN);
-    found.scale = taken_of(self) * (1.0f + x[3]);
+    found.scale = jcal_health_scale_taken(self) * (1.0f + x[3]);
     found.deviation =
         jcal_min(sqrtf(left) / m[9], SCALE_PRIOR); /* the last pivot: 1 / m[9]^2 is the variance of the scale */
     return found;
 }
 
 /// Once in a while: a scale that is far off is taken off, and all begins anew.
-static void take_off(jcal_health_scale_t *self)
+static bool take_off(jcal_health_scale_t *self)
 {
-    if ((self->length_s < TAKE_S) || (self->length_s < self->next_s)) {
-        return;
+    if ((self->length_s < TAKE_S) || (self->length_s < self->next_s) || (self->times_taken >= TIMES_MOST)) {
+        return false;
     }
     self->next_s = self->length_s + TAKE_S;
-    if (self->next_s > (MEMORY_S - TAKE_S)) {
-        self->next_s = MEMORY_S; /* what an hour of motion left is no error of a linearisation */
-    }
     const jcal_health_scale_found_t found = jcal_health_scale_solve(self);
-    const float off = fabsf((found.scale / taken_of(self)) - 1.0f);
-    if ((off < TAKE_SHARE) || (off < (TAKE_DEVIATIONS * found.deviation))) {
-        return;
+    const float off = fabsf((found.scale / jcal_health_scale_taken(self)) - 1.0f);
+    if ((off < ((self->times_taken > 0u) ? TAKE_AGAIN_SHARE : TAKE_SHARE)) ||
+        (off < (TAKE_DEVIATIONS * found.deviation))) {
+        return false;
     }
-    const float gravity_m_s2 = self->gravity_m_s2;
-    const float gravity_s = self->gravity_s;
+    const uint8_t times_taken = (uint8_t)(self->times_taken + 1u);
     jcal_clear(self, sizeof *self);
     self->taken = jcal_max(TAKEN_LEAST, jcal_min(found.scale, TAKEN_MOST));
-    self->gravity_m_s2 = gravity_m_s2;
-    self->gravity_s = gravity_s;
+    self->times_taken = times_taken;
+    return true;
 }
 
-void jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t *block)
+bool jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t *block)
 {
     const jcal_vec3_t acc = jcal_vec3_scale(block->back_sum, 1.0f / block->count);
-    const jcal_vec3_t angle = jcal_vec3_scale(block->angle, taken_of(self));
+    const jcal_vec3_t angle = jcal_vec3_scale(block->angle, jcal_health_scale_taken(self));
     const float angle2 = jcal_vec3_dot(angle, angle);
     if (!(angle2 < (TURN_MAX_RAD * TURN_MAX_RAD))) {
         self->epoch_s = 0.0f;
-        return;
+        return false;
     }
     if (!(self->epoch_s > 0.0f)) {
         begin(&self->fast, acc);
@@ -229,10 +223,13 @@ void jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t 
     take(&self->slow, acc, share_of(block->length_s, jcal_min(SLOW_S, self->epoch_s)));
     if (self->epoch_s >= WARM_S) {
         sum(self, block->length_s);
-        take_off(self);
+        if (take_off(self)) {
+            return true;
+        }
     }
     float r[9];
     jcal_turn_matrix(jcal_turn_by(angle), r);
     turn(&self->fast, r, angle, block->length_s);
     turn(&self->slow, r, angle, block->length_s);
+    return false;
 }

@@ -48,16 +48,17 @@ typedef struct {
 /// How fast gravity turns.
 typedef struct {
     jcal_health_past_t fast, slow;
-    float epoch_s;       ///< Time since both began.
-    float next_s;        ///< Time that is summed when the scale is judged next.
-    float taken;         ///< Scale that rates are multiplied by before; 0: 1.
-    float squares[10];   ///< Weighted sum of J J' (4 x 4, packed): bias x, y, z in units of 0.01 rad/s, scale.
-    float products[4];   ///< The same of J e.
-    float left;          ///< The same of e e.
-    float weight;        ///< Sum of weights.
-    float length_s;      ///< Time that is summed.
-    float gravity_m_s2;  ///< Mean of |slow.g| ...
-    float gravity_s;     ///< ... and its time, as far as it counts.
+    float epoch_s;        ///< Time since both began.
+    float next_s;         ///< Time that is summed when the scale is judged next.
+    float taken;          ///< Scale that rates are multiplied by before; 0: 1.
+    uint8_t times_taken;  ///< How often a scale was taken off.
+    float squares[10];    ///< Weighted sum of J J' (4 x 4, packed): bias x, y, z in units of 0.01 rad/s, scale.
+    float products[4];    ///< The same of J e.
+    float left;           ///< The same of e e.
+    float weight;         ///< Sum of weights.
+    float length_s;       ///< Time that is summed.
+    float gravity_m_s2;   ///< Mean of |slow.g| ...
+    float gravity_s;      ///< ... and its time, as far as it counts.
 } jcal_health_scale_t;
 
 /// Which way to read the rates fits.
@@ -82,6 +83,7 @@ typedef struct {
 typedef struct {
     uint16_t level;         ///< Where its flat peaks end.
     uint16_t peak;          ///< Of the excursion that is going on; 0: none.
+    uint16_t base;          ///< Value from which on readings near the peak are counted.
     uint8_t top, side;      ///< Readings near that peak, and on the way down from it.
     uint8_t hits, against;  ///< Flat peaks at the level, and what speaks against a stop there.
 } jcal_health_rail_t;
