@@ -222,3 +222,19 @@ void jcal_health_frames_step(jcal_health_frames_t *self)
         finish_way(self);
     }
 }
+
+unsigned jcal_health_frames_best(const jcal_health_frames_t *self, float *next)
+{
+    const float *const score = self->score;
+    unsigned best = 0u;
+    *next = score[1];
+    for (unsigned k = 1u; k < JCAL_HEALTH_DEG; ++k) {
+        if (score[k] < score[best]) {
+            *next = score[best];
+            best = k;
+        } else {
+            *next = jcal_min(score[k], *next);
+        }
+    }
+    return best;
+}

@@ -205,7 +205,7 @@ static bool take_off(jcal_health_scale_t *self)
     return true;
 }
 
-bool jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t *block)
+bool jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t *block, bool may_take)
 {
     const jcal_vec3_t acc = jcal_vec3_scale(block->back_sum, 1.0f / block->count);
     const jcal_vec3_t angle = jcal_vec3_scale(block->angle, jcal_health_scale_taken(self));
@@ -223,7 +223,7 @@ bool jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t 
     take(&self->slow, acc, share_of(block->length_s, jcal_min(SLOW_S, self->epoch_s)));
     if (self->epoch_s >= WARM_S) {
         sum(self, block->length_s);
-        if (take_off(self)) {
+        if (may_take && take_off(self)) {
             return true;
         }
     }

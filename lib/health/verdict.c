@@ -135,22 +135,6 @@ static bool is_right_handed(const jcal_health_way_t *way)
     return (signs > 0) == is_even;
 }
 
-/// The best of the 48 ways, and what the next one leaves open.
-static unsigned best_way(const float *score, float *next)
-{
-    unsigned best = 0u;
-    *next = score[1];
-    for (unsigned k = 1u; k < JCAL_HEALTH_DEG; ++k) {
-        if (score[k] < score[best]) {
-            *next = score[best];
-            best = k;
-        } else {
-            *next = jcal_min(score[k], *next);
-        }
-    }
-    return best;
-}
-
 /// What windows leave open in the mean, with rates as they stand.
 static float mean_open(const jcal_health_frames_t *frames)
 {
@@ -164,7 +148,7 @@ static void judge_frames(const jcal_health_t *self, result_t *out)
     const jcal_health_frames_t *const frames = &self->frames;
     const float *const score = frames->score;
     float next = 0.0f;
-    const unsigned best = best_way(score, &next);
+    const unsigned best = jcal_health_frames_best(frames, &next);
     const float as_is = score[JCAL_HEALTH_AS_IS];
     const float mean = as_is / jcal_max((float)frames->trials, 1.0f);
     const bool is_clear = (frames->trials >= TRIALS_CLEAR) && (as_is > (OPEN_TIMES_CLEAR * score[best]));
