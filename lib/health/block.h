@@ -16,10 +16,10 @@
 /// Length of a block, s; the last reading may take it somewhat further.
 #define JCAL_HEALTH_BLOCK_S 0.099f
 
-/// Takes in a reading that came dt_s after the last one; true if the block is full.
-static inline bool jcal_health_block_add(jcal_health_block_t *self, const jcal_imu_t *imu, float dt_s)
+/// Takes in a reading that came dt_s after the last one, its rates times `scale`; true if the block is full.
+static inline bool jcal_health_block_add(jcal_health_block_t *self, const jcal_imu_t *imu, float dt_s, float scale)
 {
-    const jcal_vec3_t turn = jcal_vec3_scale(imu->gyr_rad_s, dt_s);
+    const jcal_vec3_t turn = jcal_vec3_scale(imu->gyr_rad_s, scale * dt_s);
     const jcal_vec3_t half_cone = jcal_vec3_scale(jcal_vec3_cross(self->angle, turn), 0.25f);
     const jcal_vec3_t middle = jcal_vec3_add(jcal_vec3_add(self->angle, jcal_vec3_scale(turn, 0.5f)), half_cone);
     const jcal_vec3_t first = jcal_vec3_cross(middle, imu->acc_m_s2);

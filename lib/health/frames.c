@@ -93,7 +93,7 @@ static void coarsen(jcal_health_frames_t *self)
     }
 }
 
-void jcal_health_frames_add(jcal_health_frames_t *self, const jcal_health_block_t *block, float scale)
+void jcal_health_frames_add(jcal_health_frames_t *self, const jcal_health_block_t *block)
 {
     if (self->filled >= JCAL_HEALTH_BLOCKS) {
         return;
@@ -103,7 +103,7 @@ void jcal_health_frames_add(jcal_health_frames_t *self, const jcal_health_block_
         jcal_health_frames_break(self);
         self->unit = jcal_max(jcal_vec3_norm(acc), 1e-3f) / UNITS_OF_G;
     }
-    const jcal_vec3_t turn = jcal_vec3_add(jcal_vec3_scale(block->turn, scale), self->turn_rest);
+    const jcal_vec3_t turn = jcal_vec3_add(block->turn, self->turn_rest);
     const float largest = jcal_max(fabsf(turn.x), jcal_max(fabsf(turn.y), fabsf(turn.z)));
     for (int k = EXPONENT_FIRST; k < EXPONENT_MOST; ++k) {
         if ((self->exponent < EXPONENT_MOST) && (largest > (INT8_MOST * power_of_two(self->exponent)))) {

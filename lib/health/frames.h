@@ -32,8 +32,8 @@ void jcal_health_frames_begin(jcal_health_frames_t *self);
 /// The window begins anew; sums stay.
 void jcal_health_frames_break(jcal_health_frames_t *self);
 
-/// Takes in a full block, its turn times `scale`, unless a full window is being worked at.
-void jcal_health_frames_add(jcal_health_frames_t *self, const jcal_health_block_t *block, float scale);
+/// Takes in a full block, unless a full window is being worked at.
+void jcal_health_frames_add(jcal_health_frames_t *self, const jcal_health_block_t *block);
 
 /// A slice of work at a full window: one part of one way. Cost: about 1,500 instructions; none if there is no full window.
 void jcal_health_frames_step(jcal_health_frames_t *self);

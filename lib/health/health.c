@@ -61,7 +61,7 @@ static void end_block(jcal_health_t *self)
     if (jcal_health_scale_add(&self->scale, &self->block, is_as_is)) {
         jcal_health_frames_begin(&self->frames);
     }
-    jcal_health_frames_add(&self->frames, &self->block, jcal_health_scale_taken(&self->scale));
+    jcal_health_frames_add(&self->frames, &self->block);
     jcal_health_rest_add(&self->rest, &self->block);
     jcal_clear(&self->block, sizeof self->block);
 }
@@ -93,7 +93,7 @@ jcal_status_t jcal_health_push(jcal_health_t *self, const jcal_reading_t *readin
     const float dt_s = 1e-6f * (float)(uint32_t)dt_us;
     jcal_health_values_add(&self->values, imu, (uint32_t)dt_us);
     jcal_health_motion_add(&self->motion, imu, dt_s);
-    if (jcal_health_block_add(&self->block, imu, dt_s)) {
+    if (jcal_health_block_add(&self->block, imu, dt_s, jcal_health_scale_taken(&self->scale))) {
         end_block(self);
     } else {
         jcal_health_frames_step(&self->frames);

@@ -84,13 +84,13 @@ static void take(jcal_health_past_t *past, jcal_vec3_t acc, float q)
 }
 
 /// The sensor turns by the block.
-static void turn(jcal_health_past_t *past, const float r[9], jcal_vec3_t angle, float length_s)
+static void turn(jcal_health_past_t *past, const float r[9], const jcal_health_block_t *block)
 {
     const jcal_vec3_t g = back(r, past->g);
-    past->by_scale = jcal_vec3_sub(back(r, past->by_scale), jcal_vec3_cross(angle, g));
+    past->by_scale = jcal_vec3_sub(back(r, past->by_scale), jcal_vec3_cross(block->angle, g));
     for (size_t k = 0u; k < 3u; ++k) {
         const jcal_vec3_t turned = back(r, column(past->by_bias, k));
-        const jcal_vec3_t fresh = jcal_vec3_add(turned, jcal_vec3_scale(cross_column(g, k), length_s));
+        const jcal_vec3_t fresh = jcal_vec3_add(turned, jcal_vec3_scale(cross_column(g, k), block->length_s));
         past->by_bias[k] = fresh.x;
         past->by_bias[k + 3u] = fresh.y;
         past->by_bias[k + 6u] = fresh.z;
@@ -208,8 +208,7 @@ static bool take_off(jcal_health_scale_t *self)
 bool jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t *block, bool may_take)
 {
     const jcal_vec3_t acc = jcal_vec3_scale(block->back_sum, 1.0f / block->count);
-    const jcal_vec3_t angle = jcal_vec3_scale(block->angle, jcal_health_scale_taken(self));
-    const float angle2 = jcal_vec3_dot(angle, angle);
+    const float angle2 = jcal_vec3_dot(block->angle, block->angle);
     if (!(angle2 < (TURN_MAX_RAD * TURN_MAX_RAD))) {
         self->epoch_s = 0.0f;
         return false;
@@ -228,8 +227,8 @@ bool jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t 
         }
     }
     float r[9];
-    jcal_turn_matrix(jcal_turn_by(angle), r);
-    turn(&self->fast, r, angle, block->length_s);
-    turn(&self->slow, r, angle, block->length_s);
+    jcal_turn_matrix(jcal_turn_by(block->angle), r);
+    turn(&self->fast, r, block);
+    turn(&self->slow, r, block);
     return false;
 }

@@ -43,7 +43,7 @@
 #define FINE_TIMES 2.0f
 /// Scale: 95 % bound as so many standard deviations and a floor, of what accelerometers are wrong by; largest bound at which it is said.
 #define DEVIATIONS 3.0f
-#define SCALE_FLOOR 0.0125f
+#define SCALE_FLOOR 0.015f
 #define SCALE_BOUND_MOST 0.04f
 /// A scale that is far off is said with a wider one.
 #define SCALE_FAR 0.15f
