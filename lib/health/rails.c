@@ -80,11 +80,11 @@ static void go_on(jcal_health_rail_t *rail, uint16_t value)
     }
 }
 
-static void add_side(jcal_health_rail_t *rail, float value, uint16_t floor)
+static void add_side(jcal_health_rail_t *rail, float value, uint16_t least)
 {
     const uint16_t whole = (value > 0.0f) ? (uint16_t)jcal_min(value, VALUE_MOST) : 0u;
     if (rail->peak == 0u) {
-        if (whole < floor) {
+        if (whole < least) {
             return;
         }
         rail->base = 0u;
@@ -105,11 +105,11 @@ void jcal_health_rails_add(jcal_health_rail_t rails[6][2], const jcal_imu_t *imu
                              imu->gyr_rad_s.z * (1.0f / GYR_UNIT), imu->acc_m_s2.x * (1.0f / ACC_UNIT),
                              imu->acc_m_s2.y * (1.0f / ACC_UNIT),  imu->acc_m_s2.z * (1.0f / ACC_UNIT)};
     for (unsigned k = 0u; k < 6u; ++k) {
-        const uint16_t floor = (k < 3u) ? GYR_FLOOR : ACC_FLOOR;
+        const uint16_t least = (k < 3u) ? GYR_FLOOR : ACC_FLOOR;
         for (unsigned side = 0u; side < 2u; ++side) {
             const float value = (side == 0u) ? values[k] : -values[k];
-            if ((rails[k][side].peak != 0u) || (value >= (float)floor)) {
-                add_side(&rails[k][side], value, floor);
+            if ((rails[k][side].peak != 0u) || (value >= (float)least)) {
+                add_side(&rails[k][side], value, least);
             }
         }
     }

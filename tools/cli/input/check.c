@@ -47,6 +47,7 @@ void check_push(check_t *check, const check_row_t *row)
     for (int k = 0; k < CHECK_SENSORS; k++) {
         if (row->has_time && row->imu[k] != NULL) {
             check_sensor_push(&check->sensors[k], row->imu[k], row->t_us);
+            check_health_push(&check->health[k], row->imu[k], row->t_us);
         }
     }
 }
@@ -244,6 +245,32 @@ static void say_sensors(const check_t *check, check_findings_t *findings)
     }
 }
 
+/* What the library's health adds: what the columns as a whole do not show, so no remark on units and frames where one was made above. */
+static void say_health(const check_t *check, check_findings_t *findings)
+{
+    bool times_said = check_time_explains(&check->times);
+    for (int k = 0; k < CHECK_SENSORS; k++) {
+        const jcal_health_result_t result = check_health_get(&check->health[k]);
+        const bool is_told = check_sensor_verdict(&check->sensors[k]).fault != CHECK_SENSOR_FINE;
+        for (int finding = 0; finding < (int)JCAL_FINDING_COUNT && findings->count < CHECK_SENTENCES; finding++) {
+            const bool of_times = finding <= (int)JCAL_FINDING_UNEVEN;
+            const bool of_columns = finding >= (int)JCAL_FINDING_NO_GRAVITY && finding <= (int)JCAL_FINDING_SCALE;
+            if (finding == (int)JCAL_FINDING_HELD || (of_times && times_said) || (of_columns && is_told)) {
+                continue;
+            }
+            const bool is_said =
+                check_health_sentence(&result, (jcal_finding_t)finding, k + 1, findings->sentences[findings->count]);
+            findings->count += is_said ? 1u : 0u;
+        }
+        times_said = times_said || result.readings > 0; /* rows have one time for all sensors */
+    }
+}
+
+jcal_health_result_t check_health_of(const check_t *check, int index)
+{
+    return check_health_get(&check->health[index]);
+}
+
 static void say_remarks(const check_t *check, check_findings_t *findings)
 {
     int acc[CHECK_SENSORS];
@@ -281,6 +308,7 @@ void check_findings(const check_t *check, check_findings_t *findings)
     }
     if (!check->times_only) {
         say_remarks(check, findings);
+        say_health(check, findings);
     }
 }
 
