@@ -58,9 +58,7 @@ static void end_block(jcal_health_t *self)
 {
     float next = 0.0f;
     const bool is_as_is = jcal_health_frames_best(&self->frames, &next) == JCAL_HEALTH_AS_IS;
-    if (jcal_health_scale_add(&self->scale, &self->block, is_as_is)) {
-        jcal_health_frames_begin(&self->frames);
-    }
+    jcal_health_scale_add(&self->scale, &self->block, is_as_is);
     jcal_health_frames_add(&self->frames, &self->block);
     jcal_health_rest_add(&self->rest, &self->block);
     jcal_clear(&self->block, sizeof self->block);

@@ -31,8 +31,9 @@
 /// so much time is summed, s. How far it may go, and how often it is done.
 #define TAKE_SHARE 0.07f
 #define TAKE_AGAIN_SHARE 0.02f
-#define TAKE_DEVIATIONS 2.0f
-#define TAKE_S 10.0f
+#define TAKE_DEVIATIONS 3.0f
+#define TAKE_S 6.0f
+#define TAKE_AGAIN_S 15.0f
 #define TAKEN_LEAST 0.5f
 #define TAKEN_MOST 2.0f
 #define TIMES_MOST 3u
@@ -185,33 +186,47 @@ jcal_health_scale_found_t jcal_health_scale_solve(const jcal_health_scale_t *sel
     return found;
 }
 
-/// Once in a while: a scale that is far off is taken off, and all begins anew.
-static bool take_off(jcal_health_scale_t *self)
+/// What was seen with the old scale, as the new one would have shown it.
+static void move(jcal_health_past_t *past, float off)
 {
-    if ((self->length_s < TAKE_S) || (self->length_s < self->next_s) || (self->times_taken >= TIMES_MOST)) {
-        return false;
-    }
-    self->next_s = self->length_s + TAKE_S;
-    const jcal_health_scale_found_t found = jcal_health_scale_solve(self);
-    const float off = fabsf((found.scale / jcal_health_scale_taken(self)) - 1.0f);
-    if ((off < ((self->times_taken > 0u) ? TAKE_AGAIN_SHARE : TAKE_SHARE)) ||
-        (off < (TAKE_DEVIATIONS * found.deviation))) {
-        return false;
-    }
-    const uint8_t times_taken = (uint8_t)(self->times_taken + 1u);
-    jcal_clear(self, sizeof *self);
-    self->taken = jcal_max(TAKEN_LEAST, jcal_min(found.scale, TAKEN_MOST));
-    self->times_taken = times_taken;
-    return true;
+    past->g = jcal_vec3_add(past->g, jcal_vec3_scale(past->by_scale, off));
 }
 
-bool jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t *block, bool may_take)
+/// Once in a while: a scale that is far off is taken off, and sums begin anew.
+static void take_off(jcal_health_scale_t *self)
+{
+    if ((self->length_s < TAKE_S) || (self->length_s < self->next_s) || (self->times_taken >= TIMES_MOST)) {
+        return;
+    }
+    const bool is_first = self->times_taken == 0u;
+    self->next_s = self->length_s + (is_first ? TAKE_S : TAKE_AGAIN_S);
+    const jcal_health_scale_found_t found = jcal_health_scale_solve(self);
+    const float now = jcal_health_scale_taken(self);
+    const float to = jcal_max(TAKEN_LEAST, jcal_min(found.scale, TAKEN_MOST));
+    const float off = (to / now) - 1.0f;
+    if ((fabsf(off) < (is_first ? TAKE_SHARE : TAKE_AGAIN_SHARE)) ||
+        (fabsf(off) < (TAKE_DEVIATIONS * found.deviation))) {
+        return;
+    }
+    jcal_clear(self->squares, sizeof self->squares);
+    jcal_clear(self->products, sizeof self->products);
+    self->left = 0.0f;
+    self->weight = 0.0f;
+    self->length_s = 0.0f;
+    self->next_s = TAKE_AGAIN_S;
+    self->taken = to;
+    self->times_taken = (uint8_t)(self->times_taken + 1u);
+    move(&self->fast, off);
+    move(&self->slow, off);
+}
+
+void jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t *block, bool may_take)
 {
     const jcal_vec3_t acc = jcal_vec3_scale(block->back_sum, 1.0f / block->count);
     const float angle2 = jcal_vec3_dot(block->angle, block->angle);
     if (!(angle2 < (TURN_MAX_RAD * TURN_MAX_RAD))) {
         self->epoch_s = 0.0f;
-        return false;
+        return;
     }
     if (!(self->epoch_s > 0.0f)) {
         begin(&self->fast, acc);
@@ -222,13 +237,12 @@ bool jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t 
     take(&self->slow, acc, share_of(block->length_s, jcal_min(SLOW_S, self->epoch_s)));
     if (self->epoch_s >= WARM_S) {
         sum(self, block->length_s);
-        if (may_take && take_off(self)) {
-            return true;
+        if (may_take) {
+            take_off(self);
         }
     }
     float r[9];
     jcal_turn_matrix(jcal_turn_by(block->angle), r);
     turn(&self->fast, r, block);
     turn(&self->slow, r, block);
-    return false;
 }

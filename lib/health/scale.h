@@ -23,8 +23,8 @@ typedef struct {
 /// Both low-passes begin anew; sums stay.
 void jcal_health_scale_break(jcal_health_scale_t *self);
 
-/// Takes in a full block; with `may_take` true if a scale was taken off: all that was found with the old one is worth nothing. Cost: about 600 multiply-adds.
-bool jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t *block, bool may_take);
+/// Takes in a full block; a scale that is far off may be taken off. Cost: about 600 multiply-adds.
+void jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t *block, bool may_take);
 
 /// What rates are multiplied by.
 static inline float jcal_health_scale_taken(const jcal_health_scale_t *self)
