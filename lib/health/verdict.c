@@ -49,8 +49,8 @@
 #define SCALE_FAR 0.15f
 #define SCALE_BOUND_FAR 0.08f
 /// Vibration that is named, rad/s, and its least part of all that is fast: impacts come and go, vibration stays. Stretches of a tenth of a second.
-#define VIBRATION_RAD_S 0.024f
-#define STEADY_SHARE 0.6f
+#define VIBRATION_RAD_S 0.027f
+#define STEADY_SHARE 0.65f
 #define STRETCHES_MIN 50.0f
 
 typedef jcal_health_result_t result_t;
