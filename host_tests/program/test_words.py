@@ -286,7 +286,7 @@ class Check(Words):
         self.assertEqual((status, lines[-1]["status"], lines[-1]["advice"][0]), (3, "collecting", line["advice"][0]))
 
     def test_time_that_passes_faster_than_it_says(self):
-        rows = [[0.8 * row[0], *row[1:]] for row in recordings.hinge_rows(40)]
+        rows = [[0.8 * row[0], *row[1:]] for row in recordings.slow_rows(60)]
         status, line = self.sensors(rows)
         self.assertEqual(status, 3)
         for number, sensor in enumerate(line["sensors"], 1):
