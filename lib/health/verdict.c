@@ -35,9 +35,13 @@
 #define TRIALS_MIN 3u
 #define TRIALS_CLEAR 2u
 #define OPEN_TIMES_CLEAR 12.0f
-#define OPEN_MIN 0.015f
+#define OPEN_MIN 0.007f
+#define OPEN_LEAST 1e-6f
 #define OPEN_TIMES 4.0f
 #define NEXT_TIMES 1.5f
+/// It is enough if it leaves less by so much, and the next one does not.
+#define OPEN_TIMES_ALONE 2.5f
+#define NEXT_TIMES_ALONE 2.0f
 /// Rates that fit leave less open than this in the mean, and any other way so many times as much.
 #define OPEN_FINE 0.03f
 #define FINE_TIMES 2.0f
@@ -155,12 +159,13 @@ static void judge_frames(const jcal_health_t *self, result_t *out)
     const bool is_tried = (frames->trials >= TRIALS_MIN) || is_clear;
     const bool is_deg =
         is_tried && (out->rms_rad_s > RATE_UNIT_RAD_S) && (score[JCAL_HEALTH_DEG] < (RATE_UNIT_SHARE * as_is));
-    const bool is_other = is_tried && !is_deg && (mean > OPEN_MIN) && (as_is > (OPEN_TIMES * score[best]));
+    const float times = as_is / jcal_max(score[best], OPEN_LEAST);
+    const bool stands_out = (times > OPEN_TIMES_ALONE) && (next > (NEXT_TIMES_ALONE * score[best]));
+    const bool is_other = is_tried && !is_deg && (mean > OPEN_MIN) && ((times > OPEN_TIMES) || stands_out);
     const bool is_right =
         is_tried && !is_deg && (best == JCAL_HEALTH_AS_IS) && (mean < OPEN_FINE) && (next > (FINE_TIMES * as_is));
     say(out, JCAL_FINDING_RATE_UNIT, is_deg || is_right, is_deg, out->rms_rad_s);
-    say(out, JCAL_FINDING_FRAMES, is_other || is_right, is_other,
-        is_other ? (as_is / jcal_max(score[best], 1e-6f)) : 1.0f);
+    say(out, JCAL_FINDING_FRAMES, is_other || is_right, is_other, is_other ? times : 1.0f);
     if (is_other) {
         const jcal_health_way_t way = jcal_health_frames_way(best);
         out->way_known = next > (NEXT_TIMES * score[best]);
