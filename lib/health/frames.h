@@ -35,7 +35,7 @@ void jcal_health_frames_break(jcal_health_frames_t *self);
 /// Takes in a full block, unless a full window is being worked at.
 void jcal_health_frames_add(jcal_health_frames_t *self, const jcal_health_block_t *block);
 
-/// A slice of work at a full window: one part of one way. Cost: about 1,500 instructions; none if there is no full window.
+/// A slice of work at a full window: one part of one way. Cost: ten turns; none if there is no full window.
 void jcal_health_frames_step(jcal_health_frames_t *self);
 
 /// Columns and signs of way `index` of the first 48.

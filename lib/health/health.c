@@ -21,7 +21,7 @@
 /// Longest distance of readings over which rates can be summed, us.
 #define STEP_MOST_US 105000u
 
-typedef char jcal_health_fits_its_budget[(sizeof(jcal_health_t) <= 1296u) ? 1 : -1];
+typedef char jcal_health_fits_its_budget[(sizeof(jcal_health_t) <= 1200u) ? 1 : -1];
 
 jcal_status_t jcal_health_init(jcal_health_t *self)
 {

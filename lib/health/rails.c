@@ -106,12 +106,12 @@ void jcal_health_rails_add(jcal_health_rail_t rails[6][2], const jcal_imu_t *imu
                              imu->acc_m_s2.y * (1.0f / ACC_UNIT),  imu->acc_m_s2.z * (1.0f / ACC_UNIT)};
     for (unsigned k = 0u; k < 6u; ++k) {
         const uint16_t least = (k < 3u) ? GYR_FLOOR : ACC_FLOOR;
-        for (unsigned side = 0u; side < 2u; ++side) {
-            const float value = (side == 0u) ? values[k] : -values[k];
-            if ((rails[k][side].peak != 0u) || (value >= (float)least)) {
-                add_side(&rails[k][side], value, least);
-            }
+        const bool is_low = (values[k] < (float)least) && (values[k] > -(float)least);
+        if (is_low && (rails[k][0].peak == 0u) && (rails[k][1].peak == 0u)) {
+            continue;
         }
+        add_side(&rails[k][0], values[k], least);
+        add_side(&rails[k][1], -values[k], least);
     }
 }
 

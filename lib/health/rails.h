@@ -10,7 +10,7 @@
 
 #include "jointcal/private/health/state.h"
 
-/// Takes in a reading. Cost: 12 comparisons, and about 20 instructions for each side that is beyond its floor.
+/// Takes in a reading. Cost: 12 comparisons, and some counting for each side that is beyond its floor.
 void jcal_health_rails_add(jcal_health_rail_t rails[6][2], const jcal_imu_t *imu);
 
 /// True if the side stops.

@@ -45,13 +45,13 @@
 /// Rates that fit leave less open than this in the mean, and any other way so many times as much.
 #define OPEN_FINE 0.03f
 #define FINE_TIMES 2.0f
-/// Scale: 95 % bound as so many standard deviations and a floor, of what accelerometers are wrong by; largest bound at which it is said.
+/// Scale: 95 % bound as so many standard deviations and a floor, what MEMS gyroscopes are off by as they come; largest bound at which it is said.
 #define DEVIATIONS 3.0f
-#define SCALE_FLOOR 0.015f
-#define SCALE_BOUND_MOST 0.04f
+#define SCALE_FLOOR 0.02f
+#define SCALE_BOUND_MOST 0.045f
 /// A scale that is far off is said with a wider one.
 #define SCALE_FAR 0.15f
-#define SCALE_BOUND_FAR 0.08f
+#define SCALE_BOUND_FAR 0.085f
 /// Vibration that is named, rad/s, and its least part of all that is fast: impacts come and go, vibration stays. Stretches of a tenth of a second.
 #define VIBRATION_RAD_S 0.027f
 #define STEADY_SHARE 0.65f
