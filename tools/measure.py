@@ -60,6 +60,7 @@ MEASUREMENTS = {
     "sensor": "the stage of one sensor: beside VQF and optics, cold starts, bias",
     "sensor_faults": "what wireless sensors do to hinges: vibration, straps, lag, drift, scale, dead and exchanged readings",
     "two_files": "two files with clocks of their own beside the recording that they are split from",
+    "sensor_health": "what one sensor's health says of faults, of good recordings, and of faults put into them",
     "pairing": "the lag of two sensors: recordings and simulated joints told a lag, unrelated pairs",
     "soak": "an hour of packets of two sensors over a bad wire: counters, times, lag and calibration beside the truth",
     "cost": "time and memory, beside qmt",

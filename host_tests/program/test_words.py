@@ -249,7 +249,8 @@ class Check(Words):
         result = self.check(recordings.csv(recordings.texts(ROWS)), "--json")
         self.assertEqual((result.returncode, result.stderr), (0, b""))
         line = self.parse(result.stdout)[0]
-        self.assertEqual(list(line), ["event", "samples", "rate_hz", "out_of_order", "gravity_m_s2", "gravity_turns", "rejected", "rejected_by", "advice"])
+        self.assertEqual(list(line), ["event", "samples", "rate_hz", "out_of_order", "gravity_m_s2", "gravity_turns", "lag_s", "lag_bound_s", "sensors", "rejected",
+                                      "rejected_by", "advice"])
         self.assertEqual((line["samples"], line["out_of_order"], line["rejected"], line["advice"]), (1000, 0, 0, []))
         self.assertAlmostEqual(line["rate_hz"], 50.0, places=3)
         for gravity, turns in zip(line["gravity_m_s2"], line["gravity_turns"], strict=True):
@@ -264,6 +265,39 @@ class Check(Words):
             self.assertIn(part, result.stdout.decode())
         self.assertEqual(self.parse(self.check(recordings.csv([]), "--json").stdout)[0]["gravity_m_s2"], [None, None])
         self.assert_error(self.check(SHORT + "1,2\n"), "r.csv:52: short line: 2 of 13 cells")
+
+    KEYS = ["verdict", "findings", "rate_hz", "jitter_s", "missing_share", "gaps", "frozen_s", "times_repeated", "dead", "clipped", "gravity_m_s2", "rest_s", "frames",
+            "columns", "columns_of", "scale", "scale_bound", "vibration_rad_s", "motion_rad_s", "motion_s"]
+
+    def sensors(self, rows):
+        result = self.check(recordings.csv(recordings.texts(rows)), "--json")
+        line = self.parse(result.stdout)[0]
+        for sensor in line["sensors"]:
+            self.assertEqual(list(sensor), self.KEYS)
+        return result.returncode, line
+
+    def test_a_component_that_is_dead(self):
+        rows = [[*row[:8], 0.125, *row[9:]] for row in ROWS]  # y of gyroscope 2
+        status, line = self.sensors(rows)
+        one, two = line["sensors"]
+        self.assertEqual((status, one["verdict"], two["verdict"], two["findings"], two["dead"]), (3, "ok", "wrong", ["dead"], ["gyr_y"]))
+        self.assertIn("y of the gyroscope of sensor 2 stays at one value", line["advice"][0])
+        lines, status = self.lines(recordings.csv(recordings.texts(rows)))
+        self.assertEqual((status, lines[-1]["status"], lines[-1]["advice"][0]), (3, "collecting", line["advice"][0]))
+
+    def test_time_that_passes_faster_than_it_says(self):
+        rows = [[0.8 * row[0], *row[1:]] for row in recordings.slow_rows(60)]
+        status, line = self.sensors(rows)
+        self.assertEqual(status, 3)
+        for number, sensor in enumerate(line["sensors"], 1):
+            self.assertLess(abs(sensor["scale"] - 1.25), sensor["scale_bound"])
+            self.assertTrue(any(sentence.startswith(f"rates of sensor {number}: gravity turns 1.2") for sentence in line["advice"]), line["advice"])
+
+    def test_rows_that_are_missing(self):
+        status, line = self.sensors([row for k, row in enumerate(ROWS) if k % 50 not in (30, 31, 32, 33)])
+        self.assertEqual((status, line["sensors"][0]["verdict"], line["sensors"][0]["findings"]), (0, "doubtful", ["gaps"]))
+        self.assertLess(abs(line["sensors"][0]["missing_share"] - 0.08), 0.01)
+        self.assertTrue(line["advice"][0].endswith("check the radio, or the logger"), line["advice"])
 
     def test_three_sensors(self):
         demo = (ROOT / "tools/demo/chain_demo.csv").read_text()

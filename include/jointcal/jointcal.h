@@ -19,6 +19,7 @@
 /// | joint angles from orientations | joint_angles.h, joint_heading.h | |
 /// | one sensor's orientation and features, once for all its joints | sensor.h, tick.h | |
 /// | packets of a wireless sensor as readings with times of the hub | packet.h | packet_config.h, chips.h |
+/// | what is wrong with one sensor | health.h | |
 /// | pairs of readings at common times, of two wireless sensors | pairing.h | pairing_config.h |
 /// | by how much two sensors of one joint are out of step | lag.h | |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
@@ -43,6 +44,7 @@
 #include "jointcal/functional_pair.h"
 #include "jointcal/gate.h"
 #include "jointcal/head.h"
+#include "jointcal/health.h"
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_auto.h"
 #include "jointcal/hinge_window.h"

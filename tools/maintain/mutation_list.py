@@ -86,6 +86,15 @@ G_LAG = "lib/pairing/lag.c"
 G_SEARCH = "lib/pairing/lag_search.c"
 G_STREAM = "lib/pairing/stream.c"
 G_SUMS = "lib/pairing/lag_sums.c"
+H_BLOCK = "lib/health/block.h"
+H_FRAMES = "lib/health/frames.c"
+H_HEALTH = "lib/health/health.c"
+H_MOTION = "lib/health/motion.c"
+H_PACE = "lib/health/pace.c"
+H_RAILS = "lib/health/rails.c"
+H_SCALE = "lib/health/scale.c"
+H_VALUES = "lib/health/values.c"
+H_VERDICT = "lib/health/verdict.c"
 P_CHIPS = "lib/packet/chips.c"
 P_ENVELOPE = "lib/packet/envelope.c"
 P_ORDER = "lib/packet/order.c"
@@ -1003,6 +1012,30 @@ MUTATIONS = [
     (G_SUMS, "(lag - (float)((int)k - JCAL_LAG_SIDE)) / distance", "(lag - (float)((int)k - JCAL_LAG_SIDE)) * distance", "weight of a node"),
     (G_SUMS, "jcal_copy(out->own1, self->own1, sizeof out->own1);", "", "sensor 1's own sums"),
     (G_SUMS, "add_scaled(out->up, node->up, weight, 16u);", "", "vertical parts"),
+    (H_BLOCK, "jcal_vec3_cross(self->angle, turn), 0.25f)", "jcal_vec3_cross(self->angle, turn), 0.0f)", "coning within a block"),
+    (H_BLOCK, "jcal_vec3_scale(second, 0.5f)", "jcal_vec3_scale(second, 1.0f)", "second order of the turn back"),
+    (H_FRAMES, "#define UNITS_OF_G 32.0f", "#define UNITS_OF_G 4.0f", "steps of the forces that are kept"),
+    (H_FRAMES, "0.5f * power_of_two(self->exponent)", "power_of_two(self->exponent)", "half a turn before the middle of a block"),
+    (H_FRAMES, "(jcal_vec3_dot(all, all) / (float)JCAL_HEALTH_PARTS)", "(jcal_vec3_dot(all, all) / (float)JCAL_HEALTH_BLOCKS)", "what all parts have in common"),
+    (H_HEALTH, "#define STEP_MOST_US 105000u", "#define STEP_MOST_US 15000u", "longest distance of readings"),
+    (H_MOTION, "#define STEP_DOWN 0.837f", "#define STEP_DOWN 1.02f", "the quietest tenth"),
+    (H_MOTION, "jcal_vec3_scale(before[2], 6.0f)", "jcal_vec3_scale(before[2], 5.0f)", "fourth difference"),
+    (H_MOTION, "#define REST_SCATTER_ACC 0.02f", "#define REST_SCATTER_ACC 0.00001f", "scatter of forces at rest"),
+    (H_PACE, "(gap_s / self->period_s) - 0.5f", "(gap_s / self->period_s) + 1.5f", "readings that a gap lost"),
+    (H_PACE, "off_s * (dt_s - self->period_s)", "2.0f * off_s * (dt_s - self->period_s)", "scatter of distances"),
+    (H_RAILS, "rail->top > (FLAT_RATIO * rail->side)", "rail->top > 0u", "round peaks are not flat"),
+    (H_RAILS, "is_flat(rail) && is_above", "is_above", "a glitch is no flat peak"),
+    (H_SCALE, "self->products[k] -= (weight / g2)", "self->products[k] += (weight / g2)", "sign of the scale"),
+    (H_SCALE, "jcal_vec3_sub(back(r, past->by_scale), jcal_vec3_cross(block->angle, g))",
+     "jcal_vec3_add(back(r, past->by_scale), jcal_vec3_cross(block->angle, g))", "derivative with respect to the scale"),
+    (H_SCALE, "past->by_bias[k] *= 1.0f - q;", "past->by_bias[k] *= q;", "what a low-pass forgets of the bias"),
+    (H_SCALE, "#define TAKE_SHARE 0.07f", "#define TAKE_SHARE 7.0f", "a scale that is far off is taken off"),
+    (H_VALUES, "1.0f / (1.0f - jcal_min(share, 0.999f))", "1.0f / jcal_min(share, 0.999f)", "how often a reading comes"),
+    (H_VALUES, "count_stuck(self, imu, moving && !same);", "count_stuck(self, imu, moving && same);", "dead, not frozen"),
+    (H_VERDICT, "way.column[rates->column[k]] = (int8_t)k;", "way.column[k] = rates->column[k];", "forces are read the other way round than rates"),
+    (H_VERDICT, "return (signs > 0) == is_even;", "return (signs > 0) != is_even;", "right-handed ways"),
+    (H_VERDICT, "#define GRAVITY_SHARE 0.06f", "#define GRAVITY_SHARE 0.08f", "how far off gravity may be"),
+    (H_VERDICT, "(score[JCAL_HEALTH_DEG] < (RATE_UNIT_SHARE * as_is))", "(false)", "rates in deg/s"),
     (DECAY, "p = p * (2.0f - p);\n    return", "return", "doublings of the exponential"),
 ]
 

@@ -47,6 +47,7 @@ void check_push(check_t *check, const check_row_t *row)
     for (int k = 0; k < CHECK_SENSORS; k++) {
         if (row->has_time && row->imu[k] != NULL) {
             check_sensor_push(&check->sensors[k], row->imu[k], row->t_us);
+            check_health_push(&check->health[k], row->imu[k], row->t_us);
         }
     }
 }
@@ -236,12 +237,67 @@ static void say_times(const check_t *check, check_findings_t *findings)
         check_time_sentences(&check->times, &findings->sentences[findings->count], CHECK_SENTENCES - findings->count);
 }
 
+/* A gyroscope that is off by more than this makes answers wrong that fit. */
+#define GRAVE_SCALE 0.1
+
+/* With such a finding an answer would be wrong although it may fit. */
+static bool is_grave(const jcal_health_result_t *result, jcal_finding_t finding)
+{
+    return finding == JCAL_FINDING_DEAD || finding == JCAL_FINDING_FRAMES ||
+           (finding == JCAL_FINDING_SCALE && fabs((double)result->fact[finding] - 1.0) > GRAVE_SCALE);
+}
+
+/* What the library's health adds of one sensor; of units and frames nothing where something was said of them. */
+static void say_health_of(const check_t *check, int sensor, bool grave, check_findings_t *findings)
+{
+    const jcal_health_result_t result = check_health_get(&check->health[sensor]);
+    const bool is_told = check_sensor_verdict(&check->sensors[sensor]).fault != CHECK_SENSOR_FINE;
+    for (int k = (int)JCAL_FINDING_FROZEN; k < (int)JCAL_FINDING_COUNT && findings->count < CHECK_SENTENCES; k++) {
+        const jcal_finding_t finding = (jcal_finding_t)k;
+        const bool of_columns = k >= (int)JCAL_FINDING_NO_GRAVITY;
+        if (finding == JCAL_FINDING_HELD || (of_columns && is_told) || is_grave(&result, finding) != grave) {
+            continue;
+        }
+        if (check_health_sentence(&result, finding, sensor + 1, findings->sentences[findings->count])) {
+            findings->count++;
+            findings->refuses = findings->refuses || grave;
+        }
+    }
+}
+
+/* Rows have one time for all sensors, so what the first one's readings say of times is enough. */
+static void say_health_times(const check_t *check, check_findings_t *findings)
+{
+    const jcal_health_result_t result = check_health_get(&check->health[0]);
+    for (int k = 0; k < (int)JCAL_FINDING_FROZEN && findings->count < CHECK_SENTENCES; k++) {
+        if (check_health_sentence(&result, (jcal_finding_t)k, 1, findings->sentences[findings->count])) {
+            findings->count++;
+        }
+    }
+}
+
+static void say_health(const check_t *check, check_findings_t *findings)
+{
+    if (!check_time_explains(&check->times)) {
+        say_health_times(check, findings);
+    }
+    for (int k = 0; k < CHECK_SENSORS; k++) {
+        say_health_of(check, k, false, findings);
+    }
+}
+
 static void say_sensors(const check_t *check, check_findings_t *findings)
 {
     say_same(check, findings);
     for (int k = 0; k < CHECK_SENSORS; k++) {
         say_sensor(&check->sensors[k], k + 1, findings);
+        say_health_of(check, k, true, findings);
     }
+}
+
+jcal_health_result_t check_health_of(const check_t *check, int index)
+{
+    return check_health_get(&check->health[index]);
 }
 
 static void say_remarks(const check_t *check, check_findings_t *findings)
@@ -281,6 +337,7 @@ void check_findings(const check_t *check, check_findings_t *findings)
     }
     if (!check->times_only) {
         say_remarks(check, findings);
+        say_health(check, findings);
     }
 }
 

@@ -8,6 +8,7 @@
 #ifndef JCAL_CLI_INPUT_CHECK_H
 #define JCAL_CLI_INPUT_CHECK_H
 
+#include "input/check_health.h"
 #include "input/check_sensor.h"
 #include "input/check_time.h"
 
@@ -17,7 +18,7 @@
 #define CHECK_PAIRS 3
 
 /// Most sentences.
-#define CHECK_SENTENCES 12
+#define CHECK_SENTENCES 24
 
 /// One row; see recording_row_t.
 typedef struct {
@@ -35,6 +36,7 @@ typedef struct {
     uint64_t rows;
     check_time_t times;
     check_sensor_t sensors[CHECK_SENSORS];
+    check_health_t health[CHECK_SENSORS];
     uint32_t pair_rows[CHECK_PAIRS];
     uint32_t same_gyr[CHECK_PAIRS];
     uint32_t same_acc[CHECK_PAIRS];
@@ -68,5 +70,8 @@ typedef struct {
 } check_measures_t;
 
 void check_measures(const check_t *check, check_measures_t *measures);
+
+/// What the library says of sensor `index` (0, 1, 2).
+jcal_health_result_t check_health_of(const check_t *check, int index);
 
 #endif

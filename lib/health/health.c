@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// The health of one sensor: who takes in what, and what is said. See health.h.
+#include "jointcal/health.h"
+
+#include "health/block.h"
+#include "health/frames.h"
+#include "health/motion.h"
+#include "health/pace.h"
+#include "health/rails.h"
+#include "health/scale.h"
+#include "health/values.h"
+#include "math/clear.h"
+#include "math/scalar.h"
+
+#include <math.h>
+#include <stddef.h>
+
+/// Largest value of a component that is taken in, in any unit.
+#define VALUE_MOST 1e6f
+/// Longest distance of readings over which rates can be summed, us.
+#define STEP_MOST_US 105000u
+
+typedef char jcal_health_fits_its_budget[(sizeof(jcal_health_t) <= 1200u) ? 1 : -1];
+
+jcal_status_t jcal_health_init(jcal_health_t *self)
+{
+    if (self == NULL) {
+        return JCAL_ERR_ARG;
+    }
+    jcal_clear(self, sizeof *self);
+    jcal_health_frames_begin(&self->frames);
+    self->is_ready = true;
+    return JCAL_OK;
+}
+
+static bool is_bounded(jcal_vec3_t v)
+{
+    return jcal_within(v.x, -VALUE_MOST, VALUE_MOST) && jcal_within(v.y, -VALUE_MOST, VALUE_MOST) &&
+           jcal_within(v.z, -VALUE_MOST, VALUE_MOST);
+}
+
+/// What sums over time begins anew.
+static void start(jcal_health_t *self, const jcal_imu_t *imu)
+{
+    jcal_clear(&self->block, sizeof self->block);
+    jcal_health_scale_break(&self->scale);
+    if (self->frames.filled < JCAL_HEALTH_BLOCKS) {
+        jcal_health_frames_break(&self->frames);
+    }
+    jcal_health_rest_break(&self->rest);
+    jcal_health_motion_break(&self->motion);
+    self->values.last = *imu;
+    self->values.same_us = 0u;
+}
+
+static void end_block(jcal_health_t *self)
+{
+    float next = 0.0f;
+    const bool is_as_is = jcal_health_frames_best(&self->frames, &next) == JCAL_HEALTH_AS_IS;
+    jcal_health_scale_add(&self->scale, &self->block, is_as_is);
+    jcal_health_frames_add(&self->frames, &self->block);
+    jcal_health_rest_add(&self->rest, &self->block);
+    jcal_clear(&self->block, sizeof self->block);
+}
+
+jcal_status_t jcal_health_push(jcal_health_t *self, const jcal_reading_t *reading)
+{
+    if ((self == NULL) || (reading == NULL) || !self->is_ready) {
+        return JCAL_ERR_ARG;
+    }
+    const jcal_imu_t *const imu = &reading->imu;
+    const bool is_first = self->pace.last_us == 0u;
+    const uint64_t t_us = reading->t_us + 1u; /* 0: none yet */
+    if (!is_bounded(imu->gyr_rad_s) || !is_bounded(imu->acc_m_s2) || (!is_first && (t_us <= self->pace.last_us))) {
+        self->rejected += (self->rejected < UINT32_MAX) ? 1u : 0u;
+        /* A clock that was set back is believed at once: nothing here hangs on times of before. */
+        self->pace.last_us = (t_us < self->pace.last_us) ? t_us : self->pace.last_us;
+        return JCAL_REJECTED;
+    }
+    const uint64_t dt_us = is_first ? 0u : (t_us - self->pace.last_us);
+    self->pace.last_us = t_us;
+    jcal_health_rails_add(self->rails, imu);
+    if (!is_first) {
+        jcal_health_pace_add(&self->pace, dt_us);
+    }
+    if (is_first || (dt_us > STEP_MOST_US)) {
+        start(self, imu);
+        return JCAL_OK;
+    }
+    const float dt_s = 1e-6f * (float)(uint32_t)dt_us;
+    jcal_health_values_add(&self->values, imu, (uint32_t)dt_us);
+    jcal_health_motion_add(&self->motion, imu, dt_s);
+    if (jcal_health_block_add(&self->block, imu, dt_s, jcal_health_scale_taken(&self->scale))) {
+        end_block(self);
+    } else {
+        jcal_health_frames_step(&self->frames);
+    }
+    return JCAL_OK;
+}
