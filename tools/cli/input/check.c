@@ -62,6 +62,18 @@ void check_say(check_findings_t *findings, const char *format, ...)
     }
 }
 
+void check_put_first(check_findings_t *findings, const check_findings_t *first, jcal_reason_t reason)
+{
+    const check_findings_t rest = *findings;
+    memcpy(findings->sentences, first->sentences, sizeof findings->sentences);
+    findings->count = first->count;
+    for (size_t k = 0; k < rest.count; k++) {
+        check_say(findings, "%s", rest.sentences[k]);
+    }
+    findings->explains = true;
+    findings->reason = reason;
+}
+
 static void say_same(const check_t *check, check_findings_t *findings)
 {
     for (int k = 0; k < CHECK_PAIRS; k++) {

@@ -53,6 +53,9 @@ typedef struct {
 /// Adds a sentence, as far as there is room.
 __attribute__((format(printf, 2, 3))) void check_say(check_findings_t *findings, const char *format, ...);
 
+/// Puts what explains before all else.
+void check_put_first(check_findings_t *findings, const check_findings_t *first, jcal_reason_t reason);
+
 /// Takes in a row.
 void check_push(check_t *check, const check_row_t *row);
 

@@ -74,11 +74,18 @@ void report_advise_lag(const report_lag_t *lag, double step_s, check_findings_t 
     if (step_s > 0.0) {
         (void)snprintf(rows, sizeof rows, ", %.1f rows", fabs(lag_s) / step_s);
     }
+    check_findings_t own = {0};
     check_say(
-        findings,
+        &own,
         "the readings of sensor %d come %.0f ms%s later than those of the other one, to within %.0f ms: move its columns up by that; "
         "the result is wrong by what the joint turns in that time",
         (lag_s > 0.0) ? 2 : 1, 1e3 * fabs(lag_s), rows, ceil(1e3 * (double)lag->bound_s));
+    if (findings->explains) {
+        check_say(findings, "%s", own.sentences[0]);
+    } else {
+        check_put_first(findings, &own, JCAL_REASON_BAD_SAMPLES);
+    }
+    findings->refuses = true;
 }
 
 void report_apply_findings(report_t *report)

@@ -63,19 +63,6 @@ static bool are_wrong(jcal_reason_t reason)
            reason == JCAL_REASON_WRONG_UNITS_ACC || reason == JCAL_REASON_GRAVITY_OFF;
 }
 
-/* Puts what explains before all else. */
-static void put_first(check_findings_t *findings, const check_findings_t *first, jcal_reason_t reason)
-{
-    const check_findings_t rest = *findings;
-    memcpy(findings->sentences, first->sentences, sizeof findings->sentences);
-    findings->count = first->count;
-    for (size_t k = 0; k < rest.count; k++) {
-        check_say(findings, "%s", rest.sentences[k]);
-    }
-    findings->explains = true;
-    findings->reason = reason;
-}
-
 static const char *assumed(const two_files_t *two)
 {
     return (two->kind == TWO_FILES_ONE_CLOCK) ? "the times as they are" : "both files beginning at once";
@@ -102,7 +89,7 @@ static void say_no_lag(const two_files_t *two, jcal_reason_t reason, check_findi
     if (findings->explains || are_wrong(reason)) {
         check_say(findings, "%s", own.sentences[0]);
     } else {
-        put_first(findings, &own, two->moved ? JCAL_REASON_NOT_ONE_JOINT : JCAL_REASON_NO_MOTION);
+        check_put_first(findings, &own, two->moved ? JCAL_REASON_NOT_ONE_JOINT : JCAL_REASON_NO_MOTION);
     }
 }
 
@@ -139,7 +126,7 @@ void two_files_findings(const two_files_t *two, jcal_reason_t reason, check_find
     if (wrong1 || wrong2 || two->pairs == 0) {
         findings->explains = false; /* that there are no pairs says less */
         findings->count = 0;
-        put_first(findings, &own, JCAL_REASON_BAD_SAMPLES);
+        check_put_first(findings, &own, JCAL_REASON_BAD_SAMPLES);
     } else {
         for (size_t k = 0; k < own.count; k++) {
             check_say(findings, "%s", own.sentences[k]);
