@@ -21,8 +21,9 @@ RUNS, QUICK_RUNS = 100, 2  # of a row
 LENGTH_S, FINE_HZ, RATE_HZ = 30.0, 200.0, 100.0
 MOTIONS = ("6", "7", "daily")
 WRONG_DEG = 3.0  # off by more than the limit that was asked for
-OPEN = ("neither model knows of lag, vibration, straps that rock or gyroscopes with errors of scale yet. A low-pass of 4 to 6 Hz of all twelve signals before the "
-        "sums leaves none of the false ones of vibration, in a prototype")
+OPEN = ("motion that is late, filtered or scaled is inside the bounds or they say so, but not errors that turn a gyroscope's axes, which leave nothing behind, "
+        "clipping that a calibration hid, and columns that are exchanged or negated, which health.h finds")
+
 HINGE, NEVER = "hinge", "never"  # what a row is: a hinge whose axes must be right, or nothing that may be ready
 
 
