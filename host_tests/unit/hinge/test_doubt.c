@@ -110,7 +110,8 @@ static void rest_is_no_contradiction(void)
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_hinge_update(&engine, &pair));
         engine.verdict.contradicted = true;
     }
-    TEST_ASSERT_TRUE(engine.watch.seen_s[0] < 4.0f); /* what the low-pass lets through in its first moments counts as motion */
+    TEST_ASSERT_TRUE(engine.watch.seen_s[0] <
+                     4.0f); /* what the low-pass lets through in its first moments counts as motion */
 }
 
 int main(void)

@@ -281,7 +281,7 @@ static void residuals_of_a_third_of_the_rate_of_the_joint_do_not_fit(void)
 {
     make_ready();
     engine.cfg.max_bound_rad = 10.0f; /* so much may move the axes, too; here it is not asked */
-    set_fit(0.375f); /* limit: 0.35 + 0.02 rad/s; 1.2 times that while ready */
+    set_fit(0.375f);                  /* limit: 0.35 + 0.02 rad/s; 1.2 times that while ready */
     judge_several_times();
     TEST_ASSERT_NOT_EQUAL(JCAL_REASON_DOES_NOT_FIT, result_of(&engine).head.reason);
     forget_that_it_was_ready();
