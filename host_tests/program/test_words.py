@@ -73,13 +73,18 @@ class Clean(Words):
             lines = self.parse(self.run_program(command, str(ROOT / f"tools/demo/{name}_demo.csv"), "--json", "--every", "1").stdout)
             self.assertEqual([line["advice"] for line in lines], [[]] * len(lines), name)
 
+    # What is wrong with some real recordings: hundreds of samples stand at 2 g; z of a gyroscope has the other sign.
+    TRUE_OF = {"people_ankle_orthosis": "it is clipped", "people_sts_O": "are not in one right-handed frame; they fit if gyr x, y, z are read from the columns x, y, -z"}
+
     @unittest.skipUnless(DATA, "no real recordings")
-    def test_nothing_is_said_of_real_recordings(self):
+    def test_nothing_untrue_is_said_of_real_recordings(self):
         for path in sorted(pathlib.Path(DATA).glob("*.csv")):
             lines = self.parse(self.run_program("hinge", str(path), "--json", "--every", "5").stdout)
             said = {sentence for line in lines for sentence in line["advice"]}
             tie = {sentence for sentence in said if "hangs on a tie" in sentence}  # true of where the sensors sit
-            self.assertEqual(said - tie, set(), path.name)
+            true = [words for name, words in self.TRUE_OF.items() if path.stem.startswith(name)]
+            self.assertEqual({sentence for sentence in said - tie if not any(words in sentence for words in true)}, set(), path.name)
+            self.assertTrue(all(any(words in sentence for sentence in said) for words in true), path.name)
 
 
 class Times(Words):
