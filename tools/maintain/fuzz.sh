@@ -47,7 +47,7 @@ flags=(-std=c99 -g -O1 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -Wall -Wextra
     -fsanitize=fuzzer,address,undefined,float-cast-overflow -fno-sanitize-recover=all)
 mapfile -t library < <(find lib -name '*.c' | sort)
 hub=(port/hub/frame.c port/hub/messages.c port/hub/hub.c)
-reader=(tools/cli/input/{check,check_frames,check_sensor,check_time,csv,file_kind,header_help,number,recording}.c)
+reader=(tools/cli/input/{check,check_frames,check_health,check_sensor,check_time,csv,file_kind,header_help,kept_rows,number,recording}.c)
 
 for target in "${targets[@]}"; do
     sources=("host_tests/fuzz/fuzz_$target.c" "${library[@]}")

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from .angles import draw_angles, read_angles, told_angles_good_to
 from .calibration import default_title, draw_calibration
+from .check import draw_check, read_readings, run_check
 from .joints import JOINTS
 from .motion import read_motion
 from .reading import Clock, RefusedError
@@ -31,6 +32,9 @@ Angles (--joint angles): FILE is what `jointcal angles` wrote, .csv or .sto. Fro
 each angle, with its reference if there is one; the difference of both, with its rms. Whole turns
 of 360 deg are taken out of both.
 
+What the sensors do (--joint check): rates and specific forces of each sensor, components that are
+clipped or dead, gaps, and what `jointcal check` says.
+
 A panel with nothing to show says why. Long files are read in pieces; every peak is kept.
 """
 
@@ -40,6 +44,7 @@ examples:
   tools/plot.py tools/demo/chain_demo.csv --joint chain -o chain.svg
   tools/plot.py recording.csv --jsonl lines.jsonl --truth truth.json -o hinge.png
   tools/plot.py recording.csv --column single --title "" --font "DejaVu Serif" -o figure3.pdf
+  tools/plot.py recording.csv --joint check -o check.png
   build/host/jointcal angles knee.csv --joint hinge --out angles.csv
   tools/plot.py angles.csv --joint angles -o angles.pdf
   tools/plot.py angles.csv --joint angles --reference knee.csv --zero-to-reference \\
@@ -61,7 +66,7 @@ def make_parser() -> argparse.ArgumentParser:
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("file", metavar="FILE", type=Path, help="recording (CSV); with --joint angles a file of angles")
     parser.add_argument("-o", "--out", type=Path, required=True, help="figure to write: .png, .pdf or .svg")
-    parser.add_argument("--joint", choices=[*JOINTS, "angles"], default="hinge", help="what to draw (default hinge)")
+    parser.add_argument("--joint", choices=[*JOINTS, "angles", "check"], default="hinge", help="what to draw (default hinge)")
     parser.add_argument("--from", dest="from_s", type=float, metavar="S", default=float("-inf"), help="draw from then on")
     parser.add_argument("--until", type=float, metavar="S", default=float("inf"), help="draw until then")
     parser.add_argument("--reference-good-to", metavar="X", help="grey band for what truth or reference is good for: 1deg, 7mm, "
@@ -100,12 +105,13 @@ def make_parser() -> argparse.ArgumentParser:
 
 def check_options(args: argparse.Namespace) -> None:
     """Options that would change nothing are mistakes."""
-    is_angles = args.joint == "angles"
-    wrong = ("truth", "jsonl", "max_bound") if is_angles else ("angles", "reference", "reference_column", "zero_to_reference", "negate_reference")
-    for name in wrong:
+    of_calibration = ("truth", "jsonl", "max_bound")
+    of_angles = ("angles", "reference", "reference_column", "zero_to_reference", "negate_reference")
+    of_either = of_calibration if args.joint == "angles" else of_angles if args.joint != "check" else (*of_calibration, *of_angles, "reference_good_to")
+    for name in of_either:
         if getattr(args, name):
             option = "--" + name.replace("_", "-")
-            raise RefusedError(option, "not with --joint angles" if is_angles else "only with --joint angles")
+            raise RefusedError(option, "only with --joint angles" if args.joint in JOINTS else f"not with --joint {args.joint}")
     if args.until <= args.from_s:
         raise RefusedError("--until", f"{args.until:g} s is not after {args.from_s:g} s")
     if args.max_bound is not None and not 0.0 < args.max_bound < float("inf"):
@@ -151,13 +157,21 @@ def plot_angles(args: argparse.Namespace, style: Style) -> None:
         save(draw_angles(angles, title, style), args.out, style)
 
 
+def plot_check(args: argparse.Namespace, style: Style) -> None:
+    readings = read_readings(args.file, args.from_s, args.until)
+    told = run_check(args.program, args.file)
+    title = args.file.name if args.title is None else args.title
+    with style.context():
+        save(draw_check(readings, told, title, style), args.out, style)
+
+
 def main(arguments: list[str] | None = None) -> int:
     args = make_parser().parse_args(arguments)
     try:
         check_options(args)
         check_out(args.out)
         style = make_style(args.column, args.size, args.font, args.font_size, args.dpi)
-        (plot_angles if args.joint == "angles" else plot_calibration)(args, style)
+        {"angles": plot_angles, "check": plot_check}.get(args.joint, plot_calibration)(args, style)
     except RefusedError as error:
         print(error, file=sys.stderr)
         return 2
