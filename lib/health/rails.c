@@ -82,7 +82,7 @@ static void go_on(jcal_health_rail_t *rail, uint16_t value)
 
 static void add_side(jcal_health_rail_t *rail, float value, uint16_t least)
 {
-    const uint16_t whole = (uint16_t)jcal_max(0.0f, jcal_min(value, VALUE_MOST));
+    const uint16_t whole = (uint16_t)jcal_min(jcal_max(value, 0.0f), VALUE_MOST);
     if (rail->peak == 0u) {
         if (whole < least) {
             return;
