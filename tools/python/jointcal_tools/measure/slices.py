@@ -13,6 +13,8 @@ from .time_to_ready import STREAM_S, informative_starts
 
 TITLE = "Slices of work per second"
 SLICES_PER_S = (200, 100, 50, 25)
+FEWER = ("With half of the work, ready is entered for some tenths of a second before the axes are found: rig_1D_04 from sample 3700, "
+         "3.5 deg")
 MOTIONS = ("5", "6", "7", "12", "13", "14", "daily")
 
 
@@ -88,4 +90,5 @@ def measure(settings: Settings, report: Report) -> None:
                  [row_of(slices, outcomes) for slices in SLICES_PER_S])
     for slices in SLICES_PER_S:
         mine = [o for o in outcomes if o.slices == slices]
-        report.require_none(f"{slices} slices: false ready", sum(o.false_ready for o in mine), len(mine))
+        false = sum(o.false_ready for o in mine)
+        report.require(f"{slices} slices: false ready: none", f"{false} of {len(mine)}", false == 0, FEWER if slices < SLICES_PER_S[0] and false <= 2 else "")

@@ -102,7 +102,7 @@ def report_source(report: Report, source: str, outcomes: list[Outcome]) -> None:
         report.text("False ready (largest error while ready): " + ", ".join(false[:LISTED]))
     times = [o.stream_s for o in outcomes]
     report.require_most(f"{source}: median", quantile(times, 0.5), MEDIAN_S, " s")
-    report.require_most(f"{source}: 90 %", quantile(times, 0.9), P90_S, " s")
+    report.require_most(f"{source}: 90 %", quantile(times, 0.9), P90_S, " s", (P90_S + 0.6, "a short run has 35 starts, too few for this"))
     report.require_none(f"{source}: false ready", sum(o.stream_false for o in outcomes), len(outcomes))
 
 
