@@ -20,7 +20,7 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402
 
-from jointcal_tools.plot import angles, calibration, command, motion, panels, reading, reduce, style, told  # noqa: E402
+from jointcal_tools.plot import angles, calibration, check, command, motion, panels, reading, reduce, style, told  # noqa: E402
 from jointcal_tools.plot.joints import JOINTS  # noqa: E402
 from jointcal_tools.plot.truth import Truth, read_truth  # noqa: E402
 
@@ -380,6 +380,50 @@ class Calibrations(Folder):
                 text = self.drawn(DEMO / f"{name}_demo.csv", "--joint", joint)
                 self.assertIn("ready at the end", text)
                 self.assertIn("first ready at", text)
+
+
+class Checks(Folder):
+    """tools/plot.py --joint check."""
+
+    @staticmethod
+    def told(**how):
+        sensor = {"verdict": "ok", "findings": [], "dead": [], "clipped": [], "gravity_m_s2": 9.81, "scale": None, "motion_rad_s": 1.5, **how}
+        return {"sensors": [sensor, {**sensor, "clipped": []}], "advice": [], "lag_s": 0.032, "lag_bound_s": 0.004}
+
+    def figure(self, text, **how):
+        readings = check.read_readings(self.write("recording.csv", text), *ALL_TIME)
+        with STYLES[None].context():
+            return readings, check.draw_check(readings, self.told(**how), "A title", STYLES[None])
+
+    def test_curves_are_the_readings(self):
+        text = recording_text(500).replace("gyr3_", "other_").replace("acc3_", "else_")
+        readings, figure = self.figure(text)
+        self.assertEqual((readings.sensors, len(figure.axes)), (2, 4))
+        t_s = np.arange(500) / 50.0
+        for panel, first in zip(figure.axes, (0, 3, 6, 9), strict=True):
+            for k, line in enumerate(panel.get_lines()):
+                np.testing.assert_allclose(line.get_ydata(), np.sin((0.7 + 0.1 * (first + k)) * t_s + first + k), atol=1e-3)
+        self.assertIn("sensor 2 is 32 ms behind sensor 1, to within 4 ms", figure._suptitle.get_text())
+
+    def test_three_sensors_have_six_panels(self):
+        readings = check.read_readings(self.recording(), *ALL_TIME)
+        self.assertEqual(readings.sensors, 3)
+
+    def test_stops_and_gaps_are_marked(self):
+        lines = recording_text(500).replace("gyr3_", "other_").replace("acc3_", "else_").splitlines()
+        readings, figure = self.figure("\n".join(lines[:200] + lines[230:]) + "\n", clipped=["acc_y"], findings=["clipped", "gaps"])
+        self.assertEqual([(round(a, 2), round(b, 2)) for a, b in readings.gaps], [(3.96, 4.58)])
+        self.assertEqual([sum(line.get_gid() == "stop" for line in panel.get_lines()) for panel in figure.axes], [0, 2, 0, 0])
+        self.assertEqual(sum(patch.get_gid() == "gap" for patch in figure.axes[3].patches), 1)
+        heads = [panel.legend_head for panel in figure.axes]
+        self.assertEqual(heads[0], "sensor 1: ok, clipped, gaps, gravity 9.81 m/s$^2$, 1.5 rad/s rms")
+
+    def test_the_program_draws_a_demo(self):
+        if not PROGRAM.is_file():
+            self.skipTest(f"{PROGRAM} is not built")
+        self.assertIn("specific force", self.drawn(DEMO / "hinge_demo.csv", "--joint", "check"))
+        self.refused("--truth: not with --joint check", DEMO / "hinge_demo.csv", "--joint", "check", "--truth", "x.json")
+        self.refused("recording.csv:1: missing column acc2_z", self.write("recording.csv", recording_text(50).replace("acc2_z", "acc2_w")), "--joint", "check")
 
 
 class Angles(Folder):

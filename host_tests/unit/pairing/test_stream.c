@@ -72,7 +72,7 @@ static void imu_is_on_line(const jcal_imu_t *imu, unsigned which, uint64_t t_us)
 static void all_pairs_are_on_lines(void)
 {
     for (int k = 0; k < count; ++k) {
-        TEST_ASSERT_EQUAL_UINT64(0u, pairs[k].t_us % PERIOD_US);
+        TEST_ASSERT_TRUE((pairs[k].t_us % PERIOD_US) == 0u);
         TEST_ASSERT_TRUE((k == 0) || (pairs[k].t_us > pairs[k - 1].t_us));
         imu_is_on_line(&pairs[k].imu1, 1u, pairs[k].t_us);
         imu_is_on_line(&pairs[k].imu2, 2u, pairs[k].t_us);
@@ -131,7 +131,7 @@ static void readings_at_common_times_stay_what_they_are(void)
     }
     TEST_ASSERT_EQUAL_INT(198, count); /* a stretch needs two readings */
     for (int k = 0; k < count; ++k) {
-        TEST_ASSERT_EQUAL_UINT64((uint64_t)(k + 2) * PERIOD_US, pairs[k].t_us);
+        TEST_ASSERT_TRUE(pairs[k].t_us == ((uint64_t)(k + 2) * PERIOD_US));
         TEST_ASSERT_EQUAL_FLOAT((float)any(k + 2), pairs[k].imu1.gyr_rad_s.x);
         TEST_ASSERT_EQUAL_FLOAT((float)any(k + 1002), pairs[k].imu2.gyr_rad_s.x);
     }
@@ -248,7 +248,7 @@ static void a_clock_that_begins_anew_is_followed(void)
         }
     }
     TEST_ASSERT_TRUE(count - before >= 55);
-    TEST_ASSERT_EQUAL_UINT64(990000u, pairs[count - 1].t_us);
+    TEST_ASSERT_TRUE(pairs[count - 1].t_us == 990000u);
     for (int k = before; k < count; ++k) {
         imu_is_on_line(&pairs[k].imu1, 1u, pairs[k].t_us);
         imu_is_on_line(&pairs[k].imu2, 2u, pairs[k].t_us);
@@ -330,8 +330,8 @@ static void a_gap_after_a_lag_was_taken_off_leaves_the_hole(void)
         pull_all();
     }
     TEST_ASSERT_EQUAL_INT(1, jumps());
-    TEST_ASSERT_EQUAL_UINT64(1990000u, pairs[98].t_us);
-    TEST_ASSERT_EQUAL_UINT64(1990000u + JCAL_PAIRING_HOLE_US + 2u * PERIOD_US, pairs[99].t_us);
+    TEST_ASSERT_TRUE(pairs[98].t_us == 1990000u);
+    TEST_ASSERT_TRUE(pairs[99].t_us == (1990000u + JCAL_PAIRING_HOLE_US + 2u * PERIOD_US));
     all_pairs_are_on_lines();
 }
 
@@ -355,7 +355,7 @@ static void time_may_end(void)
     TEST_ASSERT_EQUAL_INT((int)told, count);
     TEST_ASSERT_EQUAL_INT(1, jumps());
     for (int k = 0; k < count; ++k) {
-        TEST_ASSERT_EQUAL_UINT64(0u, pairs[k].t_us % PERIOD_US);
+        TEST_ASSERT_TRUE((pairs[k].t_us % PERIOD_US) == 0u);
     }
     TEST_ASSERT_TRUE(pairs[0].t_us > begin_us);
     TEST_ASSERT_TRUE(pairs[told - 1u].t_us > 1900000u);
@@ -370,7 +370,7 @@ static void a_sensor_that_began_later_is_met_where_it_began(void)
     push(1u, 1000000u);
     push(1u, 1080000u);
     TEST_ASSERT_EQUAL_INT(5, count); /* 1.04 to 1.08 s */
-    TEST_ASSERT_EQUAL_UINT64(1040000u, pairs[0].t_us);
+    TEST_ASSERT_TRUE(pairs[0].t_us == 1040000u);
     TEST_ASSERT_EQUAL_UINT32(3u, result().lost1);
     TEST_ASSERT_EQUAL_UINT(2u, result().waiting);
     all_pairs_are_on_lines();
@@ -403,7 +403,7 @@ static void no_stretch_goes_over_a_shift(void)
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_push(&pairing, 2u, &reading));
         push(1u, t);
     }
-    TEST_ASSERT_EQUAL_UINT64(1050000u, pairs[0].t_us); /* 1.04 s is the first of the new times */
+    TEST_ASSERT_TRUE(pairs[0].t_us == 1050000u); /* 1.04 s is the first of the new times */
     all_pairs_are_on_lines();
 }
 

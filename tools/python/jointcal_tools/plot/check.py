@@ -108,7 +108,8 @@ def draw_check(readings: Readings, told: dict, title: str, style: Style) -> plt.
             draw_readings(panels[2 * sensor + which], readings, sensor, which, told["sensors"][sensor], style)
     advice = [style.wrapped(sentence, 0.9) for sentence in told["advice"]]
     if told.get("lag_s") is not None:
-        advice.append(f"sensor 2 is {1e3 * told['lag_s']:.0f} ms behind sensor 1, to within {1e3 * told['lag_bound_s']:.0f} ms")
+        late, other = (2, 1) if told["lag_s"] >= 0.0 else (1, 2)
+        advice.append(f"sensor {late} is {1e3 * abs(told['lag_s']):.0f} ms behind sensor {other}, to within {1e3 * told['lag_bound_s']:.0f} ms")
     draw_title(figure, "\n".join([title, *advice]) if title else "", style)
     link_times(panels, readings.clock)
     lay_out(figure, style)
