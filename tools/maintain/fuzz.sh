@@ -49,11 +49,28 @@ mapfile -t library < <(find lib -name '*.c' | sort)
 hub=(port/hub/frame.c port/hub/messages.c port/hub/hub.c)
 reader=(tools/cli/input/{check,check_frames,check_health,check_sensor,check_time,csv,file_kind,header_help,kept_rows,number,recording}.c)
 
+# What the fuzzers share is compiled once, on all cores; an object that failed is missing when the fuzzer is linked.
+objects=$out/objects
+rm -rf "$objects"
+mkdir -p "$objects"
+object_of() { printf '%s/%s.o' "$objects" "${1//\//_}"; }
+for source in "${library[@]}" "${hub[@]}" "${reader[@]}"; do
+    while (($(jobs -rp | wc -l) >= $(nproc))); do
+        wait -n
+    done
+    clang-14 "${flags[@]}" -c "$source" -o "$(object_of "$source")" &
+done
+wait
+
 for target in "${targets[@]}"; do
-    sources=("host_tests/fuzz/fuzz_$target.c" "${library[@]}")
+    sources=("${library[@]}")
     [[ $target == reader ]] && sources+=("${reader[@]}")
     [[ $target == frame ]] && sources+=("${hub[@]}")
-    clang-14 "${flags[@]}" "${sources[@]}" -o "$out/fuzz_$target" -lm
+    linked=()
+    for source in "${sources[@]}"; do
+        linked+=("$(object_of "$source")")
+    done
+    clang-14 "${flags[@]}" "host_tests/fuzz/fuzz_$target.c" "${linked[@]}" -o "$out/fuzz_$target" -lm
     corpus=host_tests/fuzz/corpus/$target
     mkdir -p "$out/$target"
     if [[ $runs == merge ]]; then
