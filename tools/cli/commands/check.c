@@ -5,6 +5,7 @@
 #include "options/common.h"
 #include "output/report.h"
 #include "output/report_health.h"
+#include "run/lag_watch.h"
 #include "run/reading.h"
 
 #include "jointcal/jointcal.h"
@@ -51,9 +52,7 @@ typedef struct {
     uint32_t rejected;
     uint32_t rejected_by[JCAL_REJECT_COUNT];
     int sensors;
-    jcal_pairing_t pairing; /* of sensors 1 and 2, for the lag between them */
-    jcal_sensor_t stage[2];
-    jcal_lag_t lag;
+    lag_watch_t lag; /* of sensors 1 and 2 */
     check_findings_t findings;
     check_measures_t measures;
 } session_t;
@@ -70,13 +69,6 @@ static void numbers(json_t *json, const char *key, const double *values, int cou
         }
     }
     (void)fputc(']', json->file);
-}
-
-static jcal_lag_result_t lag_of(const session_t *session)
-{
-    jcal_lag_result_t lag = {0};
-    (void)jcal_lag_get(&session->lag, &lag);
-    return lag;
 }
 
 static void write_sensors(json_t *json, const session_t *session)
@@ -102,9 +94,9 @@ static void write_json(const session_t *session)
     json_count(&json, "out_of_order", (uint32_t)measures->out_of_order);
     numbers(&json, "gravity_m_s2", measures->gravity_m_s2, session->sensors);
     numbers(&json, "gravity_turns", measures->gravity_turns, session->sensors);
-    const jcal_lag_result_t lag = lag_of(session);
-    json_number(&json, "lag_s", lag.lag_known ? lag.lag_s : NAN);
-    json_number(&json, "lag_bound_s", lag.lag_known ? lag.bound_s : NAN);
+    const lag_found_t lag = lag_watch_found(&session->lag);
+    json_number(&json, "lag_s", lag.known ? (float)lag.lag_s : NAN);
+    json_number(&json, "lag_bound_s", lag.known ? (float)lag.bound_s : NAN);
     write_sensors(&json, session);
     json_count(&json, "rejected", session->rejected);
     json_rejected(&json, session->rejected_by);
@@ -120,10 +112,10 @@ static void print(const session_t *session)
     if (measures->step_s > 0.0) {
         (void)printf("  %-18s %.4g rows a second\n", "rate", 1.0 / measures->step_s);
     }
-    const jcal_lag_result_t lag = lag_of(session);
-    if (lag.lag_known) {
-        (void)printf("  %-18s sensor 2 is late by %.0f ms, to within %.0f\n", "lag", 1e3 * (double)lag.lag_s,
-                     1e3 * (double)lag.bound_s);
+    const lag_found_t lag = lag_watch_found(&session->lag);
+    if (lag.known) {
+        (void)printf("  %-18s sensor 2 is late by %.0f ms, to within %.0f\n", "lag", 1e3 * lag.lag_s,
+                     1e3 * lag.bound_s);
     }
     for (int k = 0; k < session->sensors; k++) {
         const jcal_health_result_t result = check_health_of(&session->reading.recording.check, k);
@@ -137,45 +129,13 @@ static void print(const session_t *session)
 
 /* ---- The command ---- */
 
-/* Ticks of a pair at a common time, and slices of the work. */
-static void learn_pair(session_t *session, const jcal_pair_t *pair)
-{
-    const jcal_reading_t one = {pair->t_us, pair->imu1};
-    const jcal_reading_t two = {pair->t_us, pair->imu2};
-    const bool has_first = jcal_sensor_push(&session->stage[0], &one) == JCAL_TICK;
-    const bool has_second = jcal_sensor_push(&session->stage[1], &two) == JCAL_TICK;
-    if (has_first && has_second) {
-        (void)jcal_lag_add(&session->lag, jcal_sensor_tick(&session->stage[0]), jcal_sensor_tick(&session->stage[1]));
-    }
-    (void)jcal_lag_step(&session->lag);
-    (void)jcal_pairing_align(&session->pairing, &session->lag);
-}
-
-/* Pairs of sensors 1 and 2, whose times are moved against each other as the lag becomes known. */
-static void learn_lag(session_t *session, const jcal_pair_t *row)
-{
-    if (!jcal_sensor_may_take(&row->imu1) || !jcal_sensor_may_take(&row->imu2)) {
-        return;
-    }
-    for (unsigned which = 1u; which <= 2u; which++) {
-        const jcal_reading_t reading = {row->t_us, (which == 1u) ? row->imu1 : row->imu2};
-        (void)jcal_pairing_push(&session->pairing, which, &reading);
-        jcal_pair_t pair;
-        while (jcal_pairing_pull(&session->pairing, &pair) == JCAL_OK) {
-            learn_pair(session, &pair);
-        }
-    }
-}
-
 static void take(session_t *session, const recording_row_t *row)
 {
     jcal_pair_t pair = {row_clock_advance(&session->clock, row), row->imu1, row->imu2};
     if (!row->has_time) {
         pair.imu1.gyr_rad_s.x = NAN; /* the library's time has no NaN; the sample has */
     }
-    if (row->has_time) {
-        learn_lag(session, &pair);
-    }
+    lag_watch_row(&session->lag, row, session->clock.start_us);
     const jcal_reject_t reject = jcal_gate_check(&session->gate, &session->gate_config, &pair);
     session->rows++;
     if (reject != JCAL_REJECT_NONE) {
@@ -224,11 +184,7 @@ int check_command(int argc, char **argv)
     common_parse(&LINE, argc, argv, &session->common, NULL);
     session->gate_config = jcal_gate_config_default();
     jcal_gate_init(&session->gate);
-    const jcal_pairing_config_t pairs = jcal_pairing_config_default();
-    const bool is_begun = jcal_pairing_init(&session->pairing, &pairs) == JCAL_OK &&
-                          jcal_sensor_init(&session->stage[0]) == JCAL_OK &&
-                          jcal_sensor_init(&session->stage[1]) == JCAL_OK && jcal_lag_init(&session->lag) == JCAL_OK;
-    (void)is_begun; /* they are ours, and so is the config */
+    (void)lag_watch_begin(&session->lag); /* its parts are ours, and so are their settings */
     exit_status_t status = reading_open(&session->reading, session->common.recording, session->common.sort);
     if (status == EXIT_READY) {
         reading_begin(&session->reading);
