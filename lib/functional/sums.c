@@ -4,6 +4,7 @@
 #include "functional/sums.h"
 
 #include "functional/model.h"
+#include "imu/turn.h"
 #include "jointcal/vec3.h"
 #include "levers/levers.h"
 #include "levers/products.h"

@@ -6,6 +6,7 @@
 #include "imu/turn.h"
 #include "jointcal/quat.h"
 #include "jointcal/vec3.h"
+#include "math/angle.h"
 #include "math/clear.h"
 #include "math/scalar.h"
 
@@ -27,8 +28,6 @@
 #define TURN_MAX_RAD 100.0f
 
 #define PART_BLOCKS (JCAL_HEALTH_BLOCKS / JCAL_HEALTH_PARTS)
-
-static const float RAD_PER_DEG = 0.0174532925f;
 
 jcal_health_way_t jcal_health_frames_way(unsigned index)
 {
@@ -119,7 +118,7 @@ static jcal_vec3_t read_by(const int8_t from[3], unsigned index, float unit)
 {
     const jcal_vec3_t v = jcal_vec3_scale(jcal_vec3((float)from[0], (float)from[1], (float)from[2]), unit);
     if (index == JCAL_HEALTH_DEG) {
-        return jcal_vec3_scale(v, RAD_PER_DEG);
+        return jcal_vec3_scale(v, JCAL_RAD_PER_DEG);
     }
     if (index == JCAL_HEALTH_STILL) {
         return jcal_vec3(0.0f, 0.0f, 0.0f);

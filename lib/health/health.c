@@ -54,11 +54,17 @@ static void start(jcal_health_t *self, const jcal_imu_t *imu)
     self->values.same_us = 0u;
 }
 
-static void end_block(jcal_health_t *self)
+/// True if rates as they stand fit best of all ways.
+static bool fit_as_is(const jcal_health_frames_t *frames)
 {
     float next = 0.0f;
-    const bool is_as_is = jcal_health_frames_best(&self->frames, &next) == JCAL_HEALTH_AS_IS;
-    jcal_health_scale_add(&self->scale, &self->block, is_as_is);
+    return jcal_health_frames_best(frames, &next) == JCAL_HEALTH_AS_IS;
+}
+
+static void end_block(jcal_health_t *self)
+{
+    const bool may_take = jcal_health_scale_is_due(&self->scale, &self->block) && fit_as_is(&self->frames);
+    jcal_health_scale_add(&self->scale, &self->block, may_take);
     jcal_health_frames_add(&self->frames, &self->block);
     jcal_health_rest_add(&self->rest, &self->block);
     jcal_clear(&self->block, sizeof self->block);

@@ -47,18 +47,6 @@ void jcal_health_scale_break(jcal_health_scale_t *self)
     self->epoch_s = 0.0f;
 }
 
-/// R' v.
-static jcal_vec3_t back(const float r[9], jcal_vec3_t v)
-{
-    return jcal_vec3((r[0] * v.x) + (r[3] * v.y) + (r[6] * v.z), (r[1] * v.x) + (r[4] * v.y) + (r[7] * v.z),
-                     (r[2] * v.x) + (r[5] * v.y) + (r[8] * v.z));
-}
-
-static jcal_vec3_t column(const float m[9], size_t k)
-{
-    return jcal_vec3(m[k], m[k + 3u], m[k + 6u]);
-}
-
 /// Column k of [v]x.
 static jcal_vec3_t cross_column(jcal_vec3_t v, size_t k)
 {
@@ -87,10 +75,10 @@ static void take(jcal_health_past_t *past, jcal_vec3_t acc, float q)
 /// The sensor turns by the block.
 static void turn(jcal_health_past_t *past, const float r[9], const jcal_health_block_t *block)
 {
-    const jcal_vec3_t g = back(r, past->g);
-    past->by_scale = jcal_vec3_sub(back(r, past->by_scale), jcal_vec3_cross(block->angle, g));
+    const jcal_vec3_t g = jcal_turn_back(r, past->g);
+    past->by_scale = jcal_vec3_sub(jcal_turn_back(r, past->by_scale), jcal_vec3_cross(block->angle, g));
     for (size_t k = 0u; k < 3u; ++k) {
-        const jcal_vec3_t turned = back(r, column(past->by_bias, k));
+        const jcal_vec3_t turned = jcal_turn_back(r, jcal_column(past->by_bias, k));
         const jcal_vec3_t fresh = jcal_vec3_add(turned, jcal_vec3_scale(cross_column(g, k), block->length_s));
         past->by_bias[k] = fresh.x;
         past->by_bias[k + 3u] = fresh.y;
@@ -192,10 +180,21 @@ static void move(jcal_health_past_t *past, float off)
     past->g = jcal_vec3_add(past->g, jcal_vec3_scale(past->by_scale, off));
 }
 
+/// True if so much time in the sums is enough to judge.
+static bool is_enough(const jcal_health_scale_t *self, float length_s)
+{
+    return (length_s >= TAKE_S) && (length_s >= self->next_s) && (self->times_taken < TIMES_MOST);
+}
+
+bool jcal_health_scale_is_due(const jcal_health_scale_t *self, const jcal_health_block_t *block)
+{
+    return is_enough(self, self->length_s + block->length_s); /* which the sums have at the most */
+}
+
 /// Once in a while: a scale that is far off is taken off, and sums begin anew.
 static void take_off(jcal_health_scale_t *self)
 {
-    if ((self->length_s < TAKE_S) || (self->length_s < self->next_s) || (self->times_taken >= TIMES_MOST)) {
+    if (!is_enough(self, self->length_s)) {
         return;
     }
     const bool is_first = self->times_taken == 0u;

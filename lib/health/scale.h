@@ -23,7 +23,10 @@ typedef struct {
 /// Both low-passes begin anew; sums stay.
 void jcal_health_scale_break(jcal_health_scale_t *self);
 
-/// Takes in a full block; a scale that is far off may be taken off. Cost: about 600 multiply-adds.
+/// True if the scale may be judged with this block: who says then whether it may be taken off has to know.
+bool jcal_health_scale_is_due(const jcal_health_scale_t *self, const jcal_health_block_t *block);
+
+/// Takes in a full block; a scale that is far off may be taken off, if it is due. Cost: about 600 multiply-adds.
 void jcal_health_scale_add(jcal_health_scale_t *self, const jcal_health_block_t *block, bool may_take);
 
 /// What rates are multiplied by.

@@ -87,9 +87,8 @@ static bool has_rival(const jcal_hinge_evidence_t *self, float cost, float infla
     if (self->search->rounds == 0u) {
         return true;
     }
-    const jcal_hinge_note_t *const rival = self->search->rival;
     jcal_hinge_point_t there = self->coarse->point;
-    jcal_hinge_point_set(&there, jcal_hinge_noted(rival[0]), jcal_hinge_noted(rival[1]));
+    jcal_hinge_point_recall(&there, self->search->rival);
     if (!self->search->has_rival || jcal_hinge_same_lines(&self->coarse->point, &there)) {
         return false;
     }

@@ -48,6 +48,17 @@ jcal_vec3_t jcal_hinge_noted(jcal_hinge_note_t note)
     return jcal_vec3_normalise(jcal_vec3((float)note.c[0], (float)note.c[1], (float)note.c[2]));
 }
 
+void jcal_hinge_point_note(const jcal_hinge_point_t *point, jcal_hinge_note_t out[2])
+{
+    out[0] = jcal_hinge_note(point->axis1.j);
+    out[1] = jcal_hinge_note(point->axis2.j);
+}
+
+void jcal_hinge_point_recall(jcal_hinge_point_t *point, const jcal_hinge_note_t notes[2])
+{
+    jcal_hinge_point_set(point, jcal_hinge_noted(notes[0]), jcal_hinge_noted(notes[1]));
+}
+
 static void axis_move(jcal_hinge_axis_t *axis, float du, float dv)
 {
     const jcal_tangent_t tangent = {axis->u, jcal_hinge_v(axis)};

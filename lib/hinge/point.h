@@ -32,6 +32,10 @@ jcal_hinge_note_t jcal_hinge_note(jcal_vec3_t j);
 /// The unit vector that was kept.
 jcal_vec3_t jcal_hinge_noted(jcal_hinge_note_t note);
 
+/// The same of both axes of a point.
+void jcal_hinge_point_note(const jcal_hinge_point_t *point, jcal_hinge_note_t out[2]);
+void jcal_hinge_point_recall(jcal_hinge_point_t *point, const jcal_hinge_note_t notes[2]);
+
 /// True if a and b mean the same axes, whatever their pairing: both lines closer than about 11 deg.
 bool jcal_hinge_same_lines(const jcal_hinge_point_t *a, const jcal_hinge_point_t *b);
 

@@ -61,19 +61,12 @@
 /// Residual power below which nothing is believed, in units of the assumed noise power.
 #define NOISE_MIN 0.01f
 
-/// The sums begin where the axes are now.
-static void drop_anchors(jcal_hinge_refine_t *self)
-{
-    self->anchor[0] = jcal_hinge_note(self->point.axis1.j);
-    self->anchor[1] = jcal_hinge_note(self->point.axis2.j);
-}
-
 void jcal_hinge_refine_restart(jcal_hinge_refine_t *self, const jcal_hinge_point_t *point)
 {
     const jcal_hinge_point_t at = *point; /* the caller may hand over self->point */
     *self = (jcal_hinge_refine_t){0};
     self->point = at;
-    drop_anchors(self);
+    jcal_hinge_point_note(&self->point, self->anchor);
     self->phase.re = 1.0f;
     jcal_hinge_block_begin(&self->block);
 }
@@ -95,7 +88,7 @@ void jcal_hinge_refine_go(jcal_hinge_refine_t *self, const jcal_hinge_point_t *p
         const float same = jcal_vec3_dot(axes[other]->j, to[other]);
         if (is_known(self, other) && !is_known(self, axis) && (fabsf(same) > SAME_COSINE)) {
             jcal_hinge_axis_set(axes[axis], jcal_vec3_scale(to[axis], (same < 0.0f) ? -1.0f : 1.0f));
-            drop_anchors(self);
+            jcal_hinge_point_note(&self->point, self->anchor);
             return;
         }
     }

@@ -110,12 +110,6 @@ static jcal_hinge_point_t point_at(const jcal_hinge_place_t *place)
     return point;
 }
 
-static void note(const jcal_hinge_point_t *point, jcal_hinge_note_t out[2])
-{
-    out[0] = jcal_hinge_note(point->axis1.j);
-    out[1] = jcal_hinge_note(point->axis2.j);
-}
-
 static jcal_hinge_place_t place_of(const jcal_hinge_point_t *point)
 {
     const jcal_hinge_place_t place = {point->axis1.j, point->axis2.j};
@@ -134,7 +128,7 @@ jcal_hinge_point_t jcal_hinge_flipped(const jcal_hinge_search_t *self, const jca
 {
     jcal_hinge_point_t flip = *point;
     if (self->has_flip) {
-        jcal_hinge_point_set(&flip, jcal_hinge_noted(self->flip[0]), jcal_hinge_noted(self->flip[1]));
+        jcal_hinge_point_recall(&flip, self->flip);
     } else { /* it has no minimum near these lines; one elsewhere is a rival */
         jcal_hinge_axis_set(&flip.axis2, jcal_vec3_scale(flip.axis2.j, -1.0f));
     }
@@ -181,7 +175,7 @@ static void put(jcal_hinge_coarse_t *coarse, const jcal_hinge_point_t *point)
 static void adopt(jcal_hinge_search_t *self, jcal_hinge_coarse_t *coarse, const jcal_hinge_point_t *probe)
 {
     if (coarse->has_point) {
-        note(&coarse->point, self->rival);
+        jcal_hinge_point_note(&coarse->point, self->rival);
         self->has_rival = true;
         self->has_flip = false;
     }
@@ -191,7 +185,7 @@ static void adopt(jcal_hinge_search_t *self, jcal_hinge_coarse_t *coarse, const 
 void jcal_hinge_turn_round(jcal_hinge_search_t *self, jcal_hinge_coarse_t *coarse)
 {
     const jcal_hinge_point_t flip = jcal_hinge_flipped(self, &coarse->point);
-    note(&coarse->point, self->flip);
+    jcal_hinge_point_note(&coarse->point, self->flip);
     self->has_flip = true;
     put(coarse, &flip);
 }
@@ -221,11 +215,11 @@ static bool file_probe(jcal_hinge_search_t *self, jcal_hinge_coarse_t *coarse, c
             return true;
         }
         if (!self->has_rival || (cost < jcal_hinge_cost_of_rival(self, &coarse->moments, cfg))) {
-            note(probe, self->rival);
+            jcal_hinge_point_note(probe, self->rival);
             self->has_rival = true;
         }
     } else if (!jcal_hinge_same_pairing(&coarse->point, probe)) {
-        note(probe, self->flip);
+        jcal_hinge_point_note(probe, self->flip);
         self->has_flip = true;
         if (better && may_turn) {
             jcal_hinge_turn_round(self, coarse);

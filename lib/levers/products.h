@@ -9,13 +9,6 @@
 
 #include <stddef.h>
 
-/// Column k of a matrix (3 x 3).
-static inline jcal_vec3_t jcal_column(const float *m, size_t k)
-{
-    const jcal_vec3_t out = {m[k], m[k + 3u], m[k + 6u]};
-    return out;
-}
-
 /// One product of columns: its vertical part, and the complex one of its horizontal parts, (x1 - i y1)(x2 + i y2).
 typedef struct {
     float *up, *re, *im;

@@ -80,6 +80,14 @@ float jcal_envelope_above(const jcal_envelope_t *self, uint32_t period_ns, uint6
     return (jcal_float_of(over_ns) * US_PER_NS) - self->above_us - (self->drift_ppm * way_s); /* ppm of s are us */
 }
 
+/// By how much b is later than its readings after a say, ns.
+static int64_t over_ns(const jcal_envelope_point_t *b, const jcal_envelope_point_t *a, uint32_t period_ns)
+{
+    const int32_t readings = (int32_t)(b->at - a->at);
+    const int32_t us = (int32_t)(b->us - a->us);
+    return ((int64_t)us * 1000) - ((int64_t)readings * (int64_t)period_ns);
+}
+
 /// The points as seen from the last one.
 static void look(const jcal_envelope_t *self, uint32_t period_ns, view_t *view)
 {
@@ -87,10 +95,9 @@ static void look(const jcal_envelope_t *self, uint32_t period_ns, view_t *view)
     const float period_s = (float)period_ns * S_PER_NS;
     for (uint32_t k = 0u; k < self->count; ++k) {
         const int32_t readings = (int32_t)(self->points[k].at - last->at);
-        const int32_t us = (int32_t)(self->points[k].us - last->us);
-        const int64_t over_ns = ((int64_t)us * 1000) - ((int64_t)readings * (int64_t)period_ns);
         view->x[k] = (float)readings * period_s;
-        view->y[k] = (jcal_float_of(over_ns) * US_PER_NS) - (self->drift_ppm * view->x[k]);
+        view->y[k] =
+            (jcal_float_of(over_ns(&self->points[k], last, period_ns)) * US_PER_NS) - (self->drift_ppm * view->x[k]);
     }
 }
 
@@ -179,10 +186,8 @@ static bool is_lower(const jcal_envelope_t *self, uint32_t period_ns, const jcal
                      const jcal_envelope_point_t *a)
 {
     const int32_t readings = (int32_t)(b->at - a->at);
-    const int32_t us = (int32_t)(b->us - a->us);
-    const int64_t over_ns = ((int64_t)us * 1000) - ((int64_t)readings * (int64_t)period_ns);
     const float drift_ns = self->drift_ppm * 1e-6f * ((float)readings * (float)period_ns);
-    return jcal_float_of(over_ns) < drift_ns;
+    return jcal_float_of(over_ns(b, a, period_ns)) < drift_ns;
 }
 
 /// Of each two neighbours the lower one stays; blocks take twice as long.

@@ -18,24 +18,21 @@ static inline size_t jcal_queue_slot_bytes(const jcal_packet_config_t *cfg)
 /// Push: the free slot, or null; then the packet is counted as lost. jcal_ring_publish() ends it.
 static inline unsigned char *jcal_queue_room(jcal_packets_t *self)
 {
-    const uint16_t at = self->ring.written;
-    if ((uint16_t)(at - self->ring.taken) >= self->cfg.packets) {
-        self->ring.overrun += 1u;
+    uint32_t slot;
+    if (!jcal_ring_room_of(&self->ring, self->cfg.packets, &slot)) {
         return NULL;
     }
-    JCAL_BARRIER(); /* pull has read the slot before it was said to be free */
-    return &self->storage[(size_t)(at & (self->cfg.packets - 1u)) * jcal_queue_slot_bytes(&self->cfg)];
+    return &self->storage[(size_t)slot * jcal_queue_slot_bytes(&self->cfg)];
 }
 
 /// Pull: the oldest slot, or null. jcal_ring_release() ends it.
 static inline const unsigned char *jcal_queue_peek(const jcal_packets_t *self)
 {
-    const uint16_t at = self->ring.taken;
-    if (at == self->ring.written) {
+    uint32_t slot;
+    if (!jcal_ring_peek_of(&self->ring, self->cfg.packets, &slot)) {
         return NULL;
     }
-    JCAL_BARRIER(); /* the slot is read after it was said to be there */
-    return &self->storage[(size_t)(at & (self->cfg.packets - 1u)) * jcal_queue_slot_bytes(&self->cfg)];
+    return &self->storage[(size_t)slot * jcal_queue_slot_bytes(&self->cfg)];
 }
 
 #endif /* JCAL_PACKET_QUEUE_H */

@@ -121,15 +121,20 @@ static float bound_of(const jcal_lag_t *self, float share)
     return jcal_min(FLOOR_S + (DEVIATIONS * spread_s), JCAL_LAG_UNKNOWN_S);
 }
 
+/// True if there is a lag at which both sensors tell of one centre, and no other.
+static bool is_one_joint(const jcal_lag_verdict_t *verdict)
+{
+    return (verdict->share <= SHARE_MAX) && (verdict->rival >= RIVAL_MIN);
+}
+
 /// True if nothing speaks against what was found.
 static bool fits(const jcal_lag_t *self)
 {
     const jcal_lag_verdict_t *const verdict = &self->verdict;
     const bool has_moved =
         (self->sums.motion_s >= (is_rough(self) ? MOTION_FIRST_S : MOTION_MIN_S)) && (verdict->speed2 >= SPEED2_MIN);
-    const bool is_one_joint = (verdict->share <= SHARE_MAX) && (verdict->rival >= RIVAL_MIN);
     const bool is_sharp = verdict->bound_s <= (is_rough(self) ? BOUND_FIRST_S : BOUND_MAX_S);
-    return has_moved && is_one_joint && is_sharp &&
+    return has_moved && is_one_joint(verdict) && is_sharp &&
            (fabsf(self->taken_s + verdict->lag_s) <= (RANGE_S + verdict->bound_s));
 }
 
@@ -137,9 +142,8 @@ static bool fits(const jcal_lag_t *self)
 static void decide(jcal_lag_t *self)
 {
     const jcal_lag_verdict_t *const verdict = &self->verdict;
-    const bool is_one_joint = (verdict->share <= SHARE_MAX) && (verdict->rival >= RIVAL_MIN);
     const bool is_denied =
-        !is_one_joint || (fabsf(verdict->lag_s - self->left_s) > (verdict->bound_s + self->known_bound_s));
+        !is_one_joint(verdict) || (fabsf(verdict->lag_s - self->left_s) > (verdict->bound_s + self->known_bound_s));
     if (verdict->agreed >= AGREED_MIN) {
         self->known = true;
         self->left_s = verdict->lag_s;

@@ -3,6 +3,7 @@
 /// Sums at a few lags. See pairing/lag_sums.h.
 #include "pairing/lag_sums.h"
 
+#include "imu/turn.h"
 #include "jointcal/vec3.h"
 #include "levers/products.h"
 #include "math/clear.h"

@@ -15,17 +15,23 @@
 
 #include <stdbool.h>
 
-/// Push: is there a free slot? If so `slot` is its index, else the sample is counted as lost.
-static inline bool jcal_ring_room(jcal_ring_t *self, uint32_t *slot)
+/// Push: is there a free slot of `capacity`, a power of two? If so `slot` is its index, else the sample is counted as lost.
+static inline bool jcal_ring_room_of(jcal_ring_t *self, uint32_t capacity, uint32_t *slot)
 {
     const uint16_t at = self->written;
-    if ((uint16_t)(at - self->taken) >= JCAL_INBOX_CAPACITY) {
+    if ((uint16_t)(at - self->taken) >= capacity) {
         self->overrun += 1u;
         return false;
     }
     JCAL_BARRIER(); /* step has read the slot before it was said to be free */
-    *slot = at % JCAL_INBOX_CAPACITY;
+    *slot = at & (capacity - 1u);
     return true;
+}
+
+/// The same of an inbox.
+static inline bool jcal_ring_room(jcal_ring_t *self, uint32_t *slot)
+{
+    return jcal_ring_room_of(self, JCAL_INBOX_CAPACITY, slot);
 }
 
 /// Push: the slot of jcal_ring_room() is filled. A push that fails does not call this and leaves no trace.
@@ -35,16 +41,22 @@ static inline void jcal_ring_publish(jcal_ring_t *self)
     self->written = (uint16_t)(self->written + 1u);
 }
 
-/// Step: is there a sample? If so `slot` is the index of the oldest.
-static inline bool jcal_ring_peek(const jcal_ring_t *self, uint32_t *slot)
+/// Step: is there a sample in one of `capacity` slots? If so `slot` is the index of the oldest.
+static inline bool jcal_ring_peek_of(const jcal_ring_t *self, uint32_t capacity, uint32_t *slot)
 {
     const uint16_t at = self->taken;
     if (at == self->written) {
         return false;
     }
     JCAL_BARRIER(); /* the slot is read after it was said to be there */
-    *slot = at % JCAL_INBOX_CAPACITY;
+    *slot = at & (capacity - 1u);
     return true;
+}
+
+/// The same of an inbox.
+static inline bool jcal_ring_peek(const jcal_ring_t *self, uint32_t *slot)
+{
+    return jcal_ring_peek_of(self, JCAL_INBOX_CAPACITY, slot);
 }
 
 /// Step: the slot of jcal_ring_peek() is copied.

@@ -68,21 +68,6 @@ static jcal_vec3_t turned(jcal_plane_t heading, jcal_vec3_t v)
     return out;
 }
 
-/// R' v.
-static jcal_vec3_t seen_from(const float *r, jcal_vec3_t v)
-{
-    const jcal_vec3_t out = {(r[0] * v.x) + (r[3] * v.y) + (r[6] * v.z), (r[1] * v.x) + (r[4] * v.y) + (r[7] * v.z),
-                             (r[2] * v.x) + (r[5] * v.y) + (r[8] * v.z)};
-    return out;
-}
-
-/// Column k of a matrix (3 x 3).
-static jcal_vec3_t column(const float *m, size_t k)
-{
-    const jcal_vec3_t out = {m[k], m[k + 3u], m[k + 6u]};
-    return out;
-}
-
 void jcal_axis_windows_cut(jcal_axis_windows_t *self)
 {
     jcal_clear(self->part, sizeof self->part);
@@ -108,11 +93,11 @@ void jcal_axis_windows_add(jcal_axis_windows_t *self, const jcal_tick_t *tick1, 
     part->heading = (part->time_s > 0.0f) ? part->heading : heading;
     const float relative2 = jcal_vec3_dot(relative, relative);
     const float weight = tick1->dt_s / (1.0f + (relative2 / FAST_RATE2));
-    add_square(part->seen[0], weight, seen_from(tick1->turn, relative));
-    add_square(part->seen[1], weight, seen_from(tick2->turn, turned(back, relative)));
+    add_square(part->seen[0], weight, jcal_turn_back(tick1->turn, relative));
+    add_square(part->seen[1], weight, jcal_turn_back(tick2->turn, turned(back, relative)));
     for (size_t k = 0u; k < 3u; ++k) {
-        const jcal_vec3_t of2 = jcal_vec3_scale(turned(heading, column(tick2->turn, k)), tick1->dt_s);
-        const jcal_vec3_t in1 = seen_from(tick1->turn, of2);
+        const jcal_vec3_t of2 = jcal_vec3_scale(turned(heading, jcal_column(tick2->turn, k)), tick1->dt_s);
+        const jcal_vec3_t in1 = jcal_turn_back(tick1->turn, of2);
         part->mean[k] += in1.x;
         part->mean[3u + k] += in1.y;
         part->mean[6u + k] += in1.z;

@@ -206,8 +206,7 @@ static void readings_that_stand_still(void)
 static void in_degrees(jcal_imu_t *imu, double t_s)
 {
     (void)t_s;
-    const float k = 57.29578f;
-    imu->gyr_rad_s = jcal_vec3(k * imu->gyr_rad_s.x, k * imu->gyr_rad_s.y, k * imu->gyr_rad_s.z);
+    imu->gyr_rad_s = jcal_vec3_scale(imu->gyr_rad_s, 57.29578f);
 }
 
 static void rates_in_degrees(void)
@@ -262,15 +261,13 @@ static void one_sensor_cannot_tell_that_all_forces_are_turned_round(void)
 static void slow_rates(jcal_imu_t *imu, double t_s)
 {
     (void)t_s;
-    const float k = 0.95f;
-    imu->gyr_rad_s = jcal_vec3(k * imu->gyr_rad_s.x, k * imu->gyr_rad_s.y, k * imu->gyr_rad_s.z);
+    imu->gyr_rad_s = jcal_vec3_scale(imu->gyr_rad_s, 0.95f);
 }
 
 static void slower_rates(jcal_imu_t *imu, double t_s)
 {
     (void)t_s;
-    const float k = 0.8f;
-    imu->gyr_rad_s = jcal_vec3(k * imu->gyr_rad_s.x, k * imu->gyr_rad_s.y, k * imu->gyr_rad_s.z);
+    imu->gyr_rad_s = jcal_vec3_scale(imu->gyr_rad_s, 0.8f);
 }
 
 static void a_scale_that_is_wrong(void)

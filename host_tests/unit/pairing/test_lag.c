@@ -5,7 +5,7 @@
 
 #include "pairing/lag_search.h"
 #include "pairing/lag_sums.h"
-#include "unit/ball/fixture.h"
+#include "unit/pairing/warm.h"
 
 #include <string.h>
 
@@ -16,14 +16,6 @@ enum { N = JCAL_LAG_NODES, SIDE = JCAL_LAG_SIDE };
 
 static jcal_lag_t lag;
 static uint32_t next;
-
-/* Filters have run for long. */
-static jcal_tick_t warm_tick(const hinge_t *arm, double t, int sensor, uint64_t t_us)
-{
-    jcal_tick_t out = hinge_tick(arm, t, sensor, t_us);
-    out.since_s = 1000.0f;
-    return out;
-}
 
 void setUp(void)
 {

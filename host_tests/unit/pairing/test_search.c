@@ -4,7 +4,7 @@
 #include "pairing/lag_search.h"
 
 #include "jointcal/lag.h"
-#include "unit/ball/fixture.h"
+#include "unit/pairing/warm.h"
 
 #include <math.h>
 #include <string.h>
@@ -19,14 +19,6 @@ static const double RIDGE = 3e-4;
 
 static jcal_lag_t lag;
 static uint32_t next;
-
-/* Filters have run for long. */
-static jcal_tick_t warm_tick(const hinge_t *arm, double t, int sensor, uint64_t t_us)
-{
-    jcal_tick_t out = hinge_tick(arm, t, sensor, t_us);
-    out.since_s = 1000.0f;
-    return out;
-}
 
 void setUp(void)
 {

@@ -15,10 +15,10 @@ from matplotlib.patches import Patch
 
 from ..recordings import AXES
 from .panels import DASHED, draw_empty, draw_title, lay_out, line_handle, link_times, set_legend
-from .reading import Clock, RefusedError, Table
+from .reading import Clock, Table
 from .reduce import Reducer
 from .style import BAND, COLOURS, Style
-from .told import ProgramError
+from .told import ProgramError, need_program
 
 KINDS = (("gyr", "rate, rad/s"), ("acc", "specific force, m/s$^2$"))
 GAP_S = 0.105  # beyond that all joints begin anew
@@ -58,8 +58,7 @@ def read_readings(path: Path, from_s: float, until_s: float) -> Readings:
 
 def run_check(program: Path, recording: Path) -> dict:
     """What `jointcal check` says, as it writes it."""
-    if not program.is_file():
-        raise RefusedError(program, "not there; build it with: cmake --preset host && cmake --build --preset host")
+    need_program(program)
     done = subprocess.run([program, "check", recording, "--json"], stdout=subprocess.PIPE, text=True, check=False)
     if done.returncode not in (0, 3):  # nothing, or something, is wrong as a whole
         raise ProgramError(done.returncode)

@@ -27,10 +27,14 @@ class ProgramError(Exception):
         self.status = status
 
 
-def run_program(program: Path, joint: Joint, recording: Path, seconds: float, options: list[str]) -> Iterator[str]:
-    """Lines as the program writes them."""
+def need_program(program: Path) -> None:
     if not program.is_file():
         raise RefusedError(program, "not there; build it with: cmake --preset host && cmake --build --preset host")
+
+
+def run_program(program: Path, joint: Joint, recording: Path, seconds: float, options: list[str]) -> Iterator[str]:
+    """Lines as the program writes them."""
+    need_program(program)
     every_s = max(EVERY_S, seconds / NO_MORE_LINES)
     with subprocess.Popen([program, joint.command, recording, "--json", "--every", f"{every_s:g}", *options],
                           stdout=subprocess.PIPE, text=True) as process:
