@@ -94,18 +94,28 @@ static void add_acc_score(jcal_hinge_block_t *block, const jcal_hinge_point_t *p
 }
 
 /// Sums that weigh what the axes' information is worth.
-static void add_powers(jcal_hinge_refine_t *self, const jcal_hinge_sample_t *sample, float weight)
+static void add_powers(jcal_hinge_refine_t *self, float weight)
 {
     const jcal_hinge_view_t *const view1 = &self->last1;
     const jcal_hinge_view_t *const view2 = &self->last2;
     const float joint = view2->along - view1->along;
-    const float rate = sqrtf(sample->w1_2 + sample->w2_2);
     self->block.joint += weight * joint * joint;
     self->along[0] += weight * view1->along * view1->along;
     self->along[1] += weight * view2->along * view2->along;
-    self->lever[0] += weight * fabsf(view1->along) * rate;
-    self->lever[1] += weight * fabsf(view2->along) * rate;
     self->across += weight * 0.5f * (jcal_plane_norm2(view1->across) + jcal_plane_norm2(view2->across));
+}
+
+/// Adds how far the residual is that of a lag. Only lengths are compared, so that the phase has no part in it; the mean of two samples'
+/// difference times the step between them, so that noise has none either.
+static void add_lag(jcal_hinge_alike_t *alike, const jcal_plane_t before[2], const jcal_plane_t now[2], float weight,
+                    float dt_s)
+{
+    const float length = jcal_plane_norm(now[1]);
+    const float length_before = jcal_plane_norm(before[1]);
+    const float differ = (jcal_plane_norm(now[0]) + jcal_plane_norm(before[0])) - (length + length_before);
+    const float rate = (length - length_before) / dt_s;
+    alike->lag += 0.5f * weight * differ * rate;
+    alike->change += weight * rate * rate;
 }
 
 void jcal_hinge_block_add(jcal_hinge_refine_t *self, const jcal_hinge_config_t *cfg, float constant_m_s2,
@@ -118,6 +128,9 @@ void jcal_hinge_block_add(jcal_hinge_refine_t *self, const jcal_hinge_config_t *
     const jcal_hinge_view_t view1 = look(&self->point.axis1, sample->w1, &self->bias[0], bias_unit);
     const jcal_hinge_view_t view2 = look(&self->point.axis2, sample->w2, &self->bias[2], bias_unit);
     if (self->has_last) {
+        const jcal_plane_t before[2] = {self->last1.across, self->last2.across};
+        const jcal_plane_t now[2] = {view1.across, view2.across};
+        add_lag(&self->alike, before, now, weight, sample->dt_s);
         carry_on(self, &view1, &view2, sample->dt_s);
     }
     self->last1 = view1;
@@ -128,7 +141,7 @@ void jcal_hinge_block_add(jcal_hinge_refine_t *self, const jcal_hinge_config_t *
     const jcal_plane_t other = {view2.across.re, -view2.across.im}; /* axis 2 turned round turns v round */
     add_residual(self, seen, bias_unit, weight);
     add_acc_score(block, &self->point, constant_m_s2, sample);
-    add_powers(self, sample, weight);
+    add_powers(self, weight);
     block->match = jcal_plane_add(block->match, weight, jcal_plane_against(seen, view2.across));
     block->match_other = jcal_plane_add(block->match_other, weight, jcal_plane_against(seen_other, other));
     block->power2 += weight * jcal_plane_norm2(view2.across);

@@ -30,13 +30,21 @@
 #define PRETENDED_SHARE 0.5f
 /// Share of the power of the accelerometer residual that may act alike in every sample.
 #define ACC_SYSTEMATIC 0.1f
+/// (sum |l| |w|)^2 over sum l^2 sum |w|^2, for rates l along the axis and w that change like noise does; 1 for steady ones.
+#define TOGETHER 0.69f
 /// Share of the residual that is taken to act alike in every sample, per share that it has of the rate along the axis, and at most.
 /// The residual that a quiet gyroscope has, rad/s, is noise. Scatter of the blocks over that of independent readings, beyond 1, at
-/// which all of the residual is taken to follow the motion. docs/METHOD.md, section 5, says where these are from.
-#define LEFT_ALIKE 30.0f
+/// which all of the residual is taken to follow the motion, and the scatter that is assumed before blocks are many. docs/METHOD.md,
+/// section 5, says where these are from.
+#define LEFT_ALIKE 20.0f
 #define LEFT_ALIKE_MAX 1.1f
 #define QUIET_RAD_S 0.005f
 #define FOLLOWS_SCATTER 3.0f
+#define FOLLOWS_PRIOR 1.5f
+/// Share of a residual that two numbers explain by chance, times the blocks: each has about six independent readings.
+#define BY_CHANCE 0.3f
+/// Share of the residual that acts alike, per share that it has of the rate across the axes.
+#define UNSHARED 3.0f
 /// Assumed standard deviation of the place to which the refined axes are pulled, rad.
 #define COARSE_RAD 0.05f
 /// Share of the rate across the axis that a tilt within the bound may make up for; beyond it the phase of a block is not
@@ -150,29 +158,54 @@ static float mean_scatter(const jcal_hinge_refine_t *refine)
     return 0.25f * sum;
 }
 
+/// What of the residual's power a scale or a lag of one sensor explains, beyond what two numbers explain by chance.
+///
+/// A scale s leaves s z along z, a lag t leaves t dz/dt. Where noise is part of the residual it lowers what one sensor's z tells of a
+/// scale and raises what the other's does, by half the cost each: what both tell of it counts.
+static float explained_by_one_sensor(const jcal_hinge_refine_t *refine)
+{
+    const jcal_hinge_alike_t *const alike = &refine->alike;
+    const float scale = jcal_max(0.0f, fabsf(alike->scale) - (0.5f * refine->cost));
+    const float by_scale = scale * scale / jcal_max(refine->across, 1e-20f);
+    const float by_lag = alike->lag * alike->lag / jcal_max(alike->change, 1e-20f);
+    const float by_chance = refine->cost * BY_CHANCE / jcal_max(jcal_hinge_refine_blocks(refine), 1.0f);
+    return jcal_max(0.0f, jcal_min(refine->cost, by_scale + by_lag) - by_chance); /* NaN stays */
+}
+
+/// How far blocks show that the residual follows the motion: 0 where they scatter as independent readings do, 1 from four times that.
+static float follows_motion(const jcal_hinge_refine_t *refine)
+{
+    const float blocks = jcal_hinge_refine_blocks(refine);
+    const float met = mean_scatter(refine) / jcal_hinge_refine_noise(refine);
+    const float scatter = ((met * blocks) + (FOLLOWS_PRIOR * PRIOR_BLOCKS)) / (blocks + PRIOR_BLOCKS);
+    return jcal_min(jcal_max((scatter - 1.0f) / FOLLOWS_SCATTER, 0.0f), 1.0f);
+}
+
 /// What does not average out, as a power beside the scatter.
 ///
-/// A mismatch of the rates by a share of |w| may act alike in every sample. It then moves axis i by at most
-/// sum |l_i| |w| / sum l_i^2 times that share.
-///
-/// What is left of the rates, r, is to a part such a mismatch, of scale, of times, of filters, of a second motion: it follows the
-/// motion. It moves axis i by at most sum |l_i| |r| / sum l_i^2 <= rms(r) / rms(l_i). How much of it does so shows where blocks
-/// scatter more than independent readings would: 8 times where rates have another scale or time, 1 to 2 times where soft tissue or
-/// vibration goes its own way. And good sensors on rigid segments leave 2 to 3 % of the rate along the axis, which
-/// to the most part averages out: the more is left, the more of it is taken to act alike.
+/// An error of the rates that acts alike in every sample, of power P summed, moves axis i by at most sqrt(P / sum l_i^2). What is taken
+/// for such an error:
+/// - a share `rate_mismatch` of the rates of both sensors;
+/// - what a scale or a lag explains of the residual;
+/// - of the rest, where blocks scatter like what follows the motion, a share that grows with the residual beside the rate along the
+///   axis: good sensors on rigid segments leave 2 to 3 % of it, which to the most part averages out;
+/// - a share of the residual that grows with it beside the rate across the axes, which is what both sensors should see: where the
+///   residual is as large, nothing says that they see one thing.
 static void find_systematic(const jcal_hinge_refine_t *refine, const jcal_hinge_config_t *cfg, float of_axis[2])
 {
-    const float mismatch = cfg->rate_mismatch;
+    const float rates = refine->along[0] + refine->along[1] + (2.0f * refine->across);
     const float quiet = QUIET_RAD_S / cfg->gyr_noise_rad_s;
-    const float beyond = (mean_scatter(refine) / jcal_hinge_refine_noise(refine)) - 1.0f;
-    const float follows = jcal_min(jcal_max(beyond / FOLLOWS_SCATTER, 0.0f), 1.0f);
+    const float follows = follows_motion(refine);
     const float left =
         follows * follows * jcal_max(refine->cost - (quiet * quiet * refine->time_s / JCAL_HINGE_UNIT_S), 0.0f);
+    const float beyond = jcal_max(refine->cost - (2.0f * refine->time_s / JCAL_HINGE_UNIT_S), 0.0f);
+    const float unshared = jcal_min(beyond / jcal_max(refine->across, 1e-20f), 1.0f);
+    const float both = (TOGETHER * cfg->rate_mismatch * cfg->rate_mismatch * rates) + explained_by_one_sensor(refine) +
+                       (UNSHARED * UNSHARED * unshared * beyond);
     for (unsigned axis = 0u; axis < 2u; ++axis) {
         const float along = jcal_max(refine->along[axis], 1e-20f);
-        const float power = refine->lever[axis] * refine->lever[axis] / along;
         const float alike = jcal_min(LEFT_ALIKE * LEFT_ALIKE * (left / along), LEFT_ALIKE_MAX * LEFT_ALIKE_MAX);
-        of_axis[axis] = ((mismatch * mismatch * power) + (alike * left)) / (ONE_DIRECTION + SECOND_DIRECTION);
+        of_axis[axis] = (both + (alike * left)) / (ONE_DIRECTION + SECOND_DIRECTION);
     }
 }
 

@@ -20,6 +20,9 @@ static void fade_counts(jcal_hinge_refine_t *self, float share)
     self->cost *= share;
     self->joint *= share;
     self->across *= share;
+    self->alike.scale *= share;
+    self->alike.lag *= share;
+    self->alike.change *= share;
     self->blocks *= share;
     self->time_s *= share;
     self->same *= share;
@@ -39,7 +42,6 @@ void jcal_hinge_refine_fade(jcal_hinge_refine_t *self, float share)
     }
     for (unsigned axis = 0u; axis < 2u; ++axis) {
         self->along[axis] *= share;
-        self->lever[axis] *= share;
         self->told[axis] *= share;
         self->told2[axis] *= share;
     }
@@ -90,7 +92,6 @@ void jcal_hinge_refine_forget_axis(jcal_hinge_refine_t *self, unsigned axis, flo
         self->lean[i] *= keep;
     }
     self->along[axis] *= keep;
-    self->lever[axis] *= keep;
     self->told[axis] *= keep;
     self->told2[axis] *= keep;
 }

@@ -11,6 +11,7 @@
 #include "joint/hysteresis.h"
 #include "jointcal/head.h"
 #include "math/scalar.h"
+#include "math/sym.h"
 
 #include <math.h>
 
@@ -71,8 +72,8 @@ static sign_t compare_signs(const jcal_hinge_evidence_t *self)
     const jcal_hinge_point_t flip = jcal_hinge_flipped(self->search, &self->coarse->point);
     const float acc_same = jcal_hinge_cost_acc(&self->coarse->moments, self->cfg, &self->coarse->point);
     const float acc_other = jcal_hinge_cost_acc(&self->coarse->moments, self->cfg, &flip);
-    const float acc_time_s =
-        (self->amount->weight_acc * self->amount->weight_acc) / jcal_max(self->amount->weight_acc2, 1e-20f);
+    const float weight_acc = self->coarse->moments.acc[jcal_sym_at(6u, 6u)];
+    const float acc_time_s = (weight_acc * weight_acc) / jcal_max(self->amount->weight_acc2, 1e-20f);
     const float acc_odds = (acc_time_s / ACC_MEMORY_S) * jcal_ln(ratio_of(acc_other, acc_same));
     const float turn_odds = (refine->sign_time_s / TURN_MEMORY_S) * jcal_ln(ratio_of(refine->other, refine->same));
     sign.evidence = 0.5f * (acc_odds + turn_odds);

@@ -329,6 +329,7 @@ static void close_block(jcal_hinge_refine_t *self, const jcal_hinge_config_t *cf
         jcal_hinge_slip_fade(&self->slip, block->time_s);
         add_block(self, reach);
         self->cost += cost;
+        self->alike.scale += 0.5f * (power1 - block->power2);
         self->slip.cost += cost;
         const float least = SIGN_FLOOR * jcal_hinge_refine_noise(self) * units;
         const float share = block->time_s / (power + least);

@@ -142,7 +142,6 @@ static void halve(jcal_hinge_t *self)
     jcal_hinge_refine_fade(&self->refine, 0.5f);
     self->amount.excitation *= 0.5f;
     self->amount.motion *= 0.5f;
-    self->amount.weight_acc *= 0.5f;
     self->amount.weight_acc2 *= 0.5f;
 }
 

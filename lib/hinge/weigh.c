@@ -87,6 +87,5 @@ void jcal_hinge_count(jcal_hinge_amount_t *self, const jcal_hinge_sample_t *samp
     self->bend += sample->dt_s * (signed_excess - (self->bend / BEND_TIME_S));
     self->excitation += (fabsf(self->bend) > BEND_MIN_RAD) ? (sample->dt_s * excess * excess) : 0.0f;
     self->motion += sample->dt_s * (sample->w1_2 + sample->w2_2);
-    self->weight_acc += sample->acc_weight;
     self->weight_acc2 += sample->acc_weight * sample->acc_weight / sample->dt_s;
 }

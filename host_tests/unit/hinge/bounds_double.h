@@ -148,11 +148,22 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
     /* Variance along each eigenvector, summed up per axis. */
     const double pull = 10.0 + (6000.0 * noise / fmax((double)r->blocks, 1.0));
     const double mismatch = (double)self->cfg.rate_mismatch;
-    /* Of the residual beyond 5 mrad/s a share acts alike: 30 times its share of the rate along the axis, at most 1.1; as a variance.
-       All of it where blocks scatter four times as much as independent readings, none where they scatter no more than those. */
+    /* Of the residual beyond 5 mrad/s a share acts alike: 20 times its share of the rate along the axis, at most 1.1; as a variance.
+       All of it where blocks scatter four times as much as independent readings, none where they scatter no more than those; six
+       blocks' weight for 1.5 times as much. */
     const double quiet = 0.005 / (double)self->cfg.gyr_noise_rad_s;
-    const double follows = fmin(fmax(((met / noise) - 1.0) / 3.0, 0.0), 1.0);
+    const double beside = (((met / noise) * blocks) + (1.5 * 6.0)) / (blocks + 6.0);
+    const double follows = fmin(fmax((beside - 1.0) / 3.0, 0.0), 1.0);
     const double left = follows * follows * fmax(cost - (quiet * quiet * (double)r->time_s / 0.05), 0.0);
+    /* What a scale or a lag explains, but for a share by chance; and three times what is left beyond the usual, times its share
+       of the rate across. */
+    const double scale = fmax(fabs((double)r->alike.scale) - (cost / 2.0), 0.0);
+    const double lag = (double)r->alike.lag;
+    const double of_both = fmin((scale * scale / (double)r->across) + (lag * lag / (double)r->alike.change), cost);
+    const double explained = fmax(of_both - (0.3 * cost / blocks), 0.0);
+    const double beyond = fmax(cost - (2.0 * (double)r->time_s / 0.05), 0.0);
+    const double unshared = 9.0 * beyond * fmin(beyond / (double)r->across, 1.0);
+    const double rates = (double)r->along[0] + (double)r->along[1] + (2.0 * (double)r->across);
     double covariance[2][3] = {{0.0}};
     *largest = 0.0;
     for (int k = 0; k < 4; ++k) {
@@ -160,11 +171,11 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
         double systematic = 0.0;
         for (int i = 0; i < 4; ++i) {
             v[i] = vectors[i][k];
-            const double lever = (double)r->lever[i / 2];
             const double along = (double)r->along[i / 2];
-            const double alike = fmin(30.0 * sqrt(left / along), 1.1);
-            systematic +=
-                v[i] * v[i] * ((mismatch * mismatch * lever * lever / along) + (alike * alike * left)) / (3.84 + 2.15);
+            const double alike = fmin(20.0 * sqrt(left / along), 1.1);
+            systematic += v[i] * v[i] *
+                          ((0.69 * mismatch * mismatch * rates) + explained + unshared + (alike * alike * left)) /
+                          (3.84 + 2.15);
         }
         const double ratio = dquadratic(scatter, v) / dquadratic(all, v);
         const double inflation = dblend(fmax(ratio, 0.25 * noise), noise, blocks);

@@ -161,7 +161,9 @@ static void sums_that_hold_nan_give_no_bound(void)
     assert_no_better_with_nan(engine.refine.scatter, JCAL_SYM_SIZE(4u), &whole);
     assert_no_better_with_nan(engine.coarse.moments.acc, JCAL_SYM_SIZE(7u), &whole);
     assert_no_better_with_nan(engine.refine.along, 2, &whole);
-    assert_no_better_with_nan(engine.refine.lever, 2, &whole);
+    assert_no_better_with_nan(&engine.refine.alike.scale, 1, &whole);
+    assert_no_better_with_nan(&engine.refine.alike.lag, 1, &whole);
+    assert_no_better_with_nan(&engine.refine.alike.change, 1, &whole);
     assert_no_better_with_nan(&engine.refine.across, 1, &whole);
     assert_no_better_with_nan(&engine.refine.cost, 1, &whole);
     assert_no_better_with_nan(&engine.refine.blocks, 1, &whole);
@@ -174,23 +176,22 @@ static void an_axis_about_which_nothing_turned_has_no_bound(void)
     motion_t motion = motion_lively(2);
     motion.gyr_noise_rad_s = QUIET_RAD_S;
     TEST_ASSERT_TRUE(bounds_of(&motion, 0, 1000, 0.1f));
+    engine.cfg.rate_mismatch = 0.0f; /* of all rates, and so of what is taken away below */
+    TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine.refine, &engine.coarse.moments, &engine.cfg, &bounds));
     const jcal_hinge_bounds_t whole = bounds;
     const float unit =
         engine.cfg.gyr_noise_rad_s * engine.cfg.gyr_noise_rad_s * 0.05f; /* rad^2/s in units of the sums */
     for (int axis = 0; axis < 2; ++axis) {
         const float along = engine.refine.along[axis];
-        engine.refine.lever[axis] *= sqrtf(0.031f / (unit * along)); /* the mismatch's share stays */
         engine.refine.along[axis] = 0.031f / unit;
         TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine.refine, &engine.coarse.moments, &engine.cfg, &bounds));
         /* Less along the axis is less planar, which narrows a bound by up to 1 + 10 / blocks / 100: 1 % with ten blocks. */
         TEST_ASSERT_FLOAT_WITHIN(1e-2f * whole.bound1_rad, whole.bound1_rad, bounds.bound1_rad);
         TEST_ASSERT_FLOAT_WITHIN(1e-2f * whole.bound2_rad, whole.bound2_rad, bounds.bound2_rad);
-        engine.refine.lever[axis] *= sqrtf(0.029f / 0.031f);
         engine.refine.along[axis] = 0.029f / unit; /* limit: 0.03 rad^2/s */
         TEST_ASSERT_TRUE(jcal_hinge_bounds(&engine.refine, &engine.coarse.moments, &engine.cfg, &bounds));
         TEST_ASSERT_EQUAL_FLOAT(JCAL_BOUND_UNKNOWN_RAD, (axis == 0) ? bounds.bound1_rad : bounds.bound2_rad);
         TEST_ASSERT_TRUE(((axis == 0) ? bounds.bound2_rad : bounds.bound1_rad) < 0.1f);
-        engine.refine.lever[axis] *= sqrtf(along * unit / 0.029f);
         engine.refine.along[axis] = along;
     }
 }
@@ -270,7 +271,9 @@ static void information_below_one_reading_at_one_radian_is_none(void)
     refine->time_s = 5.0f;
     refine->information = 100.0f;
     refine->information2 = 100.0f;
+    engine.cfg.rate_mismatch = 0.0f;
     refine->across = 1e8f; /* so that a tilt of any size is small beside what it would change */
+    refine->alike.change = 1.0f;
     refine->along[0] = 1e4f;
     refine->along[1] = 1e4f;
     for (size_t i = 0; i < 4; ++i) {

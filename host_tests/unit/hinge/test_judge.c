@@ -165,7 +165,6 @@ static void set_fit(float error_rad_s)
 static void rates_alone_say(float time_s, float ratio)
 {
     jcal_sym_zero(engine.coarse.moments.acc, 7u);
-    engine.amount.weight_acc = 0.0f;
     engine.refine.sign_time_s = time_s;
     engine.refine.same = 0.01f;
     engine.refine.other = 0.01f * ratio;
@@ -200,11 +199,12 @@ static void specific_forces_speak_for_the_pairing_once_each_0_3_s(void)
     const float same = jcal_hinge_cost_acc(&engine.coarse.moments, &engine.cfg, &engine.coarse.point);
     const float odds = logf(jcal_hinge_cost_acc(&engine.coarse.moments, &engine.cfg, &flip) / same);
     TEST_ASSERT_TRUE(odds > 0.5f);
-    engine.amount.weight_acc2 = 1.0f;
-    engine.amount.weight_acc = sqrtf(7.2f * 2.0f * 0.3f / odds); /* its square over that: the time they stand for */
+    const float weight = engine.coarse.moments.acc[jcal_sym_at(6, 6)];
+    engine.amount.weight_acc2 =
+        weight * weight * odds / (7.2f * 2.0f * 0.3f); /* the square over that: the time they stand for */
     assert_verdict(JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
     forget_that_it_was_ready();
-    engine.amount.weight_acc = sqrtf(6.8f * 2.0f * 0.3f / odds);
+    engine.amount.weight_acc2 = weight * weight * odds / (6.8f * 2.0f * 0.3f);
     assert_verdict(JCAL_AMBIGUOUS, JCAL_REASON_SIGN_OPEN, JCAL_HINT_TILT_AXIS);
 }
 
@@ -297,7 +297,7 @@ static void a_bound_above_the_limit_names_the_axis(void)
     const jcal_hinge_t ready = engine;
     for (unsigned axis = 0u; axis < 2u; ++axis) {
         engine = ready;
-        engine.refine.lever[axis] *= 30.0f; /* errors of the rates that all act alike, on this axis */
+        engine.refine.along[axis] = 0.0f; /* its segment has not turned about it */
         assert_verdict(JCAL_COLLECTING, JCAL_REASON_UNCERTAIN,
                        (axis == 0u) ? JCAL_HINT_MOVE_SEGMENT1 : JCAL_HINT_MOVE_SEGMENT2);
         const jcal_hinge_result_t r = result_of(&engine);

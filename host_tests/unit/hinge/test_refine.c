@@ -203,20 +203,14 @@ static void counts_of_a_block_are_what_they_say(void)
     add_one_block(&motion, 100, 1.0f, 0.0);
     const jcal_hinge_refine_t *const got = &engine.refine;
     double along[2] = {0.0, 0.0};
-    double lever[2] = {0.0, 0.0};
     double joint = 0.0;
     double across = 0.0;
     for (int k = 0; k < block.count; ++k) {
         const double weight = dweight(&block, k);
         double l[2];
-        double power = 0.0;
         for (int s = 0; s < 2; ++s) {
             l[s] = ddot(block.w[k][s], block.j[s]);
-            power += ddot(block.w[k][s], block.w[k][s]);
-        }
-        for (int s = 0; s < 2; ++s) {
             along[s] += weight * l[s] * l[s];
-            lever[s] += weight * fabs(l[s]) * sqrt(power);
         }
         joint += weight * (l[1] - l[0]) * (l[1] - l[0]);
     }
@@ -225,8 +219,26 @@ static void counts_of_a_block_are_what_they_say(void)
     across = 0.5 * dpower(&block, &seen);
     for (int s = 0; s < 2; ++s) {
         assert_near(along[s], got->along[s], SUM_TOL * along[s]);
-        assert_near(lever[s], got->lever[s], SUM_TOL * lever[s]);
     }
+    double scale = 0.0;
+    double lag = 0.0;
+    double change = 0.0;
+    for (int k = 0; k < block.count; ++k) {
+        const double weight = dweight(&block, k);
+        const double z1 = cabs(seen.z[0][k]);
+        const double z2 = cabs(seen.z[1][k]);
+        scale += 0.5 * weight * ((z1 * z1) - (z2 * z2));
+        if (k > 0) { /* nothing goes before the first sample */
+            const double b1 = cabs(seen.z[0][k - 1]);
+            const double b2 = cabs(seen.z[1][k - 1]);
+            const double rate = (z2 - b2) / block.dt_s[k];
+            lag += weight * 0.5 * ((z1 + b1) - (z2 + b2)) * rate;
+            change += weight * rate * rate;
+        }
+    }
+    assert_near(scale, got->alike.scale, SUM_TOL * 2.0 * across); /* each of two sums to SUM_TOL */
+    assert_near(lag, got->alike.lag, SUM_TOL * sqrt(across * change));
+    assert_near(change, got->alike.change, SUM_TOL * change);
     assert_near(joint, got->joint, SUM_TOL * joint);
     assert_near(across, got->across, SUM_TOL * across);
     assert_near(0.2, got->time_s, 0.2 * SUM_TOL);
@@ -646,14 +658,17 @@ static void fading_scales_every_sum_and_nothing_else(void)
     jcal_hinge_refine_fade(&engine.refine, 0.25f);
     jcal_hinge_refine_t expected = before;
     float *const single[] = {&expected.information, &expected.information2, &expected.cost,     &expected.joint,
-                             &expected.across,      &expected.along[0],     &expected.along[1], &expected.lever[0],
-                             &expected.lever[1],    &expected.blocks,       &expected.time_s,   &expected.same,
-                             &expected.other,       &expected.sign_time_s,  &expected.told[0],  &expected.told[1],
-                             &expected.told2[0],    &expected.told2[1]};
+                             &expected.across,      &expected.along[0],     &expected.along[1], &expected.alike.change,
+                             &expected.blocks,      &expected.time_s,       &expected.same,     &expected.other,
+                             &expected.sign_time_s, &expected.told[0],      &expected.told[1],  &expected.told2[0],
+                             &expected.told2[1]};
     for (size_t k = 0; k < (sizeof single / sizeof single[0]); ++k) {
         TEST_ASSERT_TRUE(*single[k] > 0.0f);
         *single[k] *= 0.25f; /* exact */
     }
+    TEST_ASSERT_TRUE((expected.alike.scale != 0.0f) && (expected.alike.lag != 0.0f));
+    expected.alike.scale *= 0.25f;
+    expected.alike.lag *= 0.25f;
     jcal_sym_scale(expected.matrix, 8u, 0.25f);
     jcal_sym_scale(expected.scatter, 4u, 0.25f);
     for (size_t i = 0; i < 8; ++i) {

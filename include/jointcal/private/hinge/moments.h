@@ -21,9 +21,9 @@ typedef struct {
 
 /// How much has gone into the sums.
 typedef struct {
-    float weight_acc;   ///< Sum of accelerometer weights ...
-    float weight_acc2;  ///< ... and of their squares per second.
-    float motion;       ///< Integral of the squared rates: what the sums are limited by.
+    float
+        weight_acc2;  ///< Sum of the squared accelerometer weights per second; their own sum is the last one of `acc`.
+    float motion;     ///< Integral of the squared rates: what the sums are limited by.
     float bend;  ///< Integral of the difference of |w1| and |w2| beyond what errors make, fading in a second, rad ...
     float
         excitation;  ///< ... and that of its square while that shows that the joint has turned, and does not merely tremble.

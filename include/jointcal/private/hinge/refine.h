@@ -12,6 +12,13 @@
 extern "C" {
 #endif
 
+/// How far the residual is one that a wrong scale or a lag of a sensor leaves; weighted like the cost.
+typedef struct {
+    float scale;   ///< Sum of half of |z1|^2 - |z2|^2: the residual along z.
+    float lag;     ///< Sum of |z1| - |z2| times the rate at which |z2| changes ...
+    float change;  ///< ... and of the square of that rate.
+} jcal_hinge_alike_t;
+
 /// The refined axes and the sums that they rest on.
 typedef struct {
     jcal_hinge_point_t point;     ///< The axes.
@@ -34,13 +41,13 @@ typedef struct {
     float cost;          ///< Sum of the squared residuals, in units of the assumed noise.
     float joint;         ///< Sum of the joint's own squared rate, in the units of the cost ...
     float along[2];      ///< ... of that along each axis ...
-    float lever[2];      ///< ... of its magnitude times that of both rates ...
     float across;        ///< ... and of that across the axes, mean of both.
-    float blocks;        ///< How many blocks.
-    float time_s;        ///< Time that they cover.
-    float same;          ///< Residual of this sign pairing, as a share of what could match, integrated over time ...
-    float other;         ///< ... of the other pairing ...
-    float sign_time_s;   ///< ... and the time for which there was something to match.
+    jcal_hinge_alike_t alike;
+    float blocks;       ///< How many blocks.
+    float time_s;       ///< Time that they cover.
+    float same;         ///< Residual of this sign pairing, as a share of what could match, integrated over time ...
+    float other;        ///< ... of the other pairing ...
+    float sign_time_s;  ///< ... and the time for which there was something to match.
     jcal_hinge_slip_t slip;
     bool has_last;
 } jcal_hinge_refine_t;
