@@ -4,13 +4,9 @@
 #include "hinge/smooth.h"
 
 #include "jointcal/vec3.h"
-#include "math/decay.h"
-#include "math/scalar.h"
 
 /// Time constant of each of the two low-passes, s.
-#define TIME_S 0.0213f
-/// Time constants after which nothing of the past is left, and up to which jcal_taken_over is good.
-#define LONG 5.0f
+#define TIME_S 0.0205f
 
 void jcal_hinge_smooth_begin(jcal_hinge_smooth_t *self, const jcal_pair_t *pair)
 {
@@ -28,7 +24,8 @@ static jcal_vec3_t between(jcal_vec3_t from, jcal_vec3_t to, float share)
 
 jcal_pair_t jcal_hinge_smooth(jcal_hinge_smooth_t *self, const jcal_pair_t *pair, float dt_s)
 {
-    const float share = jcal_taken_over(jcal_min(dt_s / TIME_S, LONG));
+    const float x = dt_s / TIME_S;
+    const float share = 1.0f - (1.0f / (1.0f + (x * (1.0f + (0.5f * x))))); /* 1 - exp(-x) to 0.06 */
     jcal_pair_t out = *pair;
     self->half[0] = between(self->half[0], pair->imu1.gyr_rad_s, share);
     self->half[1] = between(self->half[1], pair->imu2.gyr_rad_s, share);

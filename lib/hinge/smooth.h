@@ -2,9 +2,9 @@
 /// @file
 /// A low-pass of the rates: what is faster than joints move is not joint motion and must not pass for information. Private.
 ///
-/// Two first-order low-passes in a row, 4.8 Hz in all, for each component of both rates:
+/// Two first-order low-passes in a row, 5 Hz in all, for each component of both rates:
 ///
-///     h <- h + a (w - h),   s <- s + a (h - s),   a = 1 - exp(-dt / T),   T = sqrt(sqrt 2 - 1) / (2 pi 4.8 Hz) = 21.3 ms
+///     h <- h + a (w - h),   s <- s + a (h - s),   a = 1 - exp(-dt / T),   T = sqrt(sqrt 2 - 1) / (2 pi 5 Hz) = 20.5 ms
 ///
 /// Of 20 Hz 13 % are left, of 33 Hz 5 %. Both rates are delayed alike, by 41 ms, so that (14) holds of them as long as the joint turns
 /// little in that time; what it does not hold by is met as a residual, which the bounds know of (hinge/bounds.h).

@@ -148,11 +148,11 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
     /* Variance along each eigenvector, summed up per axis. */
     const double pull = 10.0 + (6000.0 * noise / fmax((double)r->blocks, 1.0));
     const double mismatch = (double)self->cfg.rate_mismatch;
-    /* Of the residual beyond 5 mrad/s a share acts alike: 20 times its share of the rate along the axis, at most 1.1; as a variance.
+    /* Of the residual beyond 5 mrad/s a share acts alike: 25 times its share of the rate along the axis, at most 1.1; as a variance.
        All of it where blocks scatter four times as much as independent readings, none where they scatter no more than those; six
-       blocks' weight for 1.5 times as much. */
+       blocks' weight for three times as much. */
     const double quiet = 0.005 / (double)self->cfg.gyr_noise_rad_s;
-    const double beside = (((met / noise) * blocks) + (1.5 * 6.0)) / (blocks + 6.0);
+    const double beside = (((met / noise) * blocks) + (3.0 * 6.0)) / (blocks + 6.0);
     const double follows = fmin(fmax((beside - 1.0) / 3.0, 0.0), 1.0);
     const double left = follows * follows * fmax(cost - (quiet * quiet * (double)r->time_s / 0.05), 0.0);
     /* What a scale or a lag explains, but for a share by chance; and three times what is left beyond the usual, times its share
@@ -172,7 +172,7 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
         for (int i = 0; i < 4; ++i) {
             v[i] = vectors[i][k];
             const double along = (double)r->along[i / 2];
-            const double alike = fmin(20.0 * sqrt(left / along), 1.1);
+            const double alike = fmin(25.0 * sqrt(left / along), 1.1);
             systematic += v[i] * v[i] *
                           ((0.69 * mismatch * mismatch * rates) + explained + unshared + (alike * alike * left)) /
                           (3.84 + 2.15);
