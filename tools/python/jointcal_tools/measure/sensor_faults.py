@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import json
+import subprocess
+import tempfile
 import zlib
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
 from .. import native
 from .. import native_functional as functional
-from ..recordings import Recording
+from ..recordings import Recording, write_csv
 from ..simulate import ACC_STD_M_S2, GYR_STD_RAD_S, HingeRecording, HingeSpec, random_unit, simulate_hinge
+from .angles import program
 from .faults import choose
 from .harness import Report, Settings, median, number, numbered, percent, run_jobs
 
@@ -21,6 +26,7 @@ RUNS, QUICK_RUNS = 100, 2  # of a row
 LENGTH_S, FINE_HZ, RATE_HZ = 30.0, 200.0, 100.0
 MOTIONS = ("6", "7", "daily")
 WRONG_DEG = 3.0  # off by more than the limit that was asked for
+EVERY_S = 0.5  # how often the program is asked
 OPEN = ("motion that is late, filtered or scaled is inside the bounds or they say so, but not errors that turn a gyroscope's axes, which leave nothing behind, "
         "clipping that a calibration hid, and columns that are exchanged or negated, which health.h finds")
 
@@ -277,11 +283,29 @@ class Outcome:
     index: int
     rigid: Said  # jcal_hinge_t
     both: Said  # jcal_hinge_auto_t
+    program: Said  # jointcal hinge
+
+
+def said_by_program(rec: Recording, truth: HingeRecording) -> Said:
+    """What `jointcal hinge` makes of it: both models, and what the health of both sensors and the lag between them say."""
+    with tempfile.TemporaryDirectory() as name:
+        file = Path(name) / "both.csv"
+        write_csv(file, rec)
+        run = subprocess.run([program(), "hinge", str(file), "--json", "--every", f"{EVERY_S:g}"], capture_output=True, text=True)
+    if run.returncode not in (0, 3):
+        raise RuntimeError(run.stderr)
+    lines = [json.loads(line) for line in run.stdout.splitlines()]
+    ready = [line for line in lines if line["status"] == "ready" and line["ready_for"] == "axes"]
+    if not ready:
+        return Said(float("inf"), np.full(2, np.nan), np.full(2, np.nan), float("nan"), lines[-1]["reason"] or "none")
+    off = [np.array([errors_deg(np.array([line[name]]), true)[0] for name, true in (("axis1", truth.axis1), ("axis2", truth.axis2))])
+           for line in ready]
+    return Said(ready[0]["t_s"] - float(rec.t_s[0]), off[0], np.array(ready[0]["uncertainty_deg"]), float(np.max(off)), lines[-1]["reason"] or "none")
 
 
 def measure_run(job: tuple[str, int]) -> Outcome:
     rec, truth = make(*job)
-    return Outcome(*job, said(native.run(rec), truth), said(functional.run(rec, either=True), truth))
+    return Outcome(*job, said(native.run(rec), truth), said(functional.run(rec, either=True), truth), said_by_program(rec, truth))
 
 
 def wrong(rule: str, one: Said) -> bool:
@@ -317,3 +341,4 @@ def measure(settings: Settings, report: Report) -> None:
                 "all. Covered: both axes within their bounds when it is first ready.")
     report_model(report, "jcal_hinge_t, the rigid model", outcomes, lambda o: o.rigid)
     report_model(report, "jcal_hinge_auto_t, both models, for axes", outcomes, lambda o: o.both)
+    report_model(report, "jointcal hinge, the program: both models, health of both sensors, lag", outcomes, lambda o: o.program)
