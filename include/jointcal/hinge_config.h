@@ -5,6 +5,7 @@
 #define JCAL_HINGE_CONFIG_H
 
 #include "jointcal/gate.h"
+#include "jointcal/status.h"
 #include "jointcal/types.h"
 
 #ifdef __cplusplus
@@ -18,6 +19,13 @@ typedef enum {
     JCAL_SIGN_OPPOSITE = 2  ///< They have opposite signs.
 } jcal_sign_hint_t;
 
+/// How well the gyroscopes are known: sets `rate_mismatch`.
+typedef enum {
+    JCAL_GYR_CALIBRATED = 0,  ///< Each one on a turntable: scale to 0.2 %, axes to 0.1 deg (default). 0.002.
+    JCAL_GYR_AS_IT_COMES =
+        1  ///< A MEMS chip as it is sold: scale to 2 %, axes to 1 deg. 0.01; ready takes about twice as long.
+} jcal_gyr_grade_t;
+
 /// Settings that both hinge engines share. Start from jcal_hinge_config_default().
 ///
 /// The noise and bias fields set how much each kind of data counts and what may be blamed on a bias; bounds are made
@@ -26,7 +34,7 @@ typedef struct {
     jcal_gate_config_t gate;  ///< Limits of single samples.
     float max_bound_rad;      ///< `ready` needs both bounds below this, rad. Range [0.001, 0.5], default 3 deg.
     /// What the model leaves out (scale, misalignment, timing of the gyroscopes), as a share of the rate: the floor
-    /// of every bound. Range [0, 0.05], default 0.002. Larger: wider bounds.
+    /// of every bound. Range [0, 0.05], default 0.002. Larger: wider bounds. jcal_hinge_config_set_gyroscope knows two values.
     float rate_mismatch;
     /// Usual disagreement of the two rates across the axis, rad/s. Range [1e-4, 1], default 0.03.
     float gyr_noise_rad_s;
@@ -78,6 +86,12 @@ typedef struct {
 /// The defaults described at each field.
 /// Threads:  no state.
 jcal_hinge_config_t jcal_hinge_config_default(void);
+
+/// Sets `rate_mismatch` to what gyroscopes of this grade need for the bounds to hold: docs/measurements/sensor_faults.md.
+///
+/// Errors:   JCAL_ERR_ARG (null, or no such grade); nothing is changed then.
+/// Threads:  no state.
+JCAL_MUST_CHECK jcal_status_t jcal_hinge_config_set_gyroscope(jcal_hinge_config_t *config, jcal_gyr_grade_t grade);
 
 /// Name of the first field that is out of its range, or null if the config is valid; "config" if that is null itself.
 /// Threads:  no state.

@@ -28,6 +28,15 @@ jcal_hinge_config_t jcal_hinge_config_default(void)
     return config;
 }
 
+jcal_status_t jcal_hinge_config_set_gyroscope(jcal_hinge_config_t *config, jcal_gyr_grade_t grade)
+{
+    if ((config == NULL) || ((unsigned)grade > (unsigned)JCAL_GYR_AS_IT_COMES)) {
+        return JCAL_ERR_ARG;
+    }
+    config->rate_mismatch = (grade == JCAL_GYR_AS_IT_COMES) ? 0.01f : 0.002f;
+    return JCAL_OK;
+}
+
 const char *jcal_hinge_config_check(const jcal_hinge_config_t *config)
 {
     if (config == NULL) {

@@ -16,6 +16,7 @@ void jcal_batch_defaults(jcal_batch_options_t *options)
         .gyr_noise_rad_s = hinge->gyr_noise_rad_s,
         .acc_noise_m_s2 = hinge->acc_noise_m_s2,
         .lever_arm_m = hinge->lever_arm_m,
+        .rate_mismatch = hinge->rate_mismatch,
         .gyr_bias_rad_s = hinge->gyr_bias_rad_s,
         .acc_bias_m_s2 = hinge->acc_bias_m_s2,
         .slices_per_s = hinge->slices_per_s,
@@ -40,6 +41,7 @@ static jcal_hinge_window_config_t config_from(const jcal_batch_options_t *option
     hinge->gyr_noise_rad_s = options->gyr_noise_rad_s;
     hinge->acc_noise_m_s2 = options->acc_noise_m_s2;
     hinge->lever_arm_m = options->lever_arm_m;
+    hinge->rate_mismatch = options->rate_mismatch;
     hinge->gyr_bias_rad_s = options->gyr_bias_rad_s;
     hinge->acc_bias_m_s2 = options->acc_bias_m_s2;
     hinge->slices_per_s = options->slices_per_s;

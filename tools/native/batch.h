@@ -25,6 +25,7 @@ typedef struct {
     float gyr_noise_rad_s;
     float acc_noise_m_s2;
     float lever_arm_m;
+    float rate_mismatch;
     float gyr_bias_rad_s;
     float acc_bias_m_s2;
     float slices_per_s;

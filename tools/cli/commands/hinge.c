@@ -18,11 +18,16 @@
 typedef struct {
     jcal_hinge_window_config_t config;
     float max_flexion_rad;
+    jcal_gyr_grade_t grade;
 } hinge_options_t;
 
-enum { KEY_MAX_FLEXION = OPTION_OWN };
+enum { KEY_MAX_FLEXION = OPTION_OWN, KEY_GYROSCOPE };
 
 static const struct argp_option OPTIONS[] = {
+    {"gyroscope", KEY_GYROSCOPE, "GRADE", 0,
+     "How well the gyroscopes are known. calibrated (default): scale to 0.2 %, axes to 0.1 deg. as-it-comes: a MEMS chip as it is sold, "
+     "2 % and 1 deg; bounds allow for it, and ready takes about twice as long",
+     0},
     {"max-flexion", KEY_MAX_FLEXION, "DEG", 0,
      "Ready, too, when the axes put the joint's angle wrong by at most DEG degrees rms (default 3): what a person's joint allows. Not "
      "with --engine window",
@@ -32,6 +37,11 @@ static const struct argp_option OPTIONS[] = {
 static error_t parse(int key, char *argument, struct argp_state *state, void *self)
 {
     hinge_options_t *options = self;
+    if (key == KEY_GYROSCOPE) {
+        const int grade = option_one_of_two(state, "gyroscope", argument, "calibrated", "as-it-comes");
+        options->grade = (grade == 0) ? JCAL_GYR_CALIBRATED : JCAL_GYR_AS_IT_COMES;
+        return 0;
+    }
     if (key != KEY_MAX_FLEXION) {
         return ARGP_ERR_UNKNOWN;
     }
@@ -57,6 +67,9 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
     config->hinge.sign_hint = common->sign_hint;
     config->hinge.axis1_toward = common->axis1_toward;
     common->max_bound = config->hinge.max_bound_rad;
+    if (jcal_hinge_config_set_gyroscope(&config->hinge, options->grade) != JCAL_OK) {
+        argp_error(state, "--gyroscope: this is a mistake in the program");
+    }
     const common_limit_t limits[] = {
         {"max_bound_rad", "max-bound", common->max_bound / RAD_PER_DEG, "a number of degrees from 0.06 to 28"},
         {"n_max", "n-max", (float)config->n_max, "a number from 20 to 10000"},

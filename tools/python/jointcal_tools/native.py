@@ -37,7 +37,7 @@ class Options(ctypes.Structure):
 
     _fields_ = [("engine", ctypes.c_int32), ("sign_hint", ctypes.c_int32), ("max_bound_rad", ctypes.c_float),
                 ("gyr_noise_rad_s", ctypes.c_float), ("acc_noise_m_s2", ctypes.c_float),
-                ("lever_arm_m", ctypes.c_float), ("gyr_bias_rad_s", ctypes.c_float),
+                ("lever_arm_m", ctypes.c_float), ("rate_mismatch", ctypes.c_float), ("gyr_bias_rad_s", ctypes.c_float),
                 ("acc_bias_m_s2", ctypes.c_float), ("slices_per_s", ctypes.c_float), ("n_max", ctypes.c_int32),
                 ("half_window", ctypes.c_int32),
                 ("acc_min", ctypes.c_int32), ("accept_count", ctypes.c_int32), ("seed", ctypes.c_uint32),

@@ -230,6 +230,9 @@ ROWS: dict[str, Row] = {
     "one rests, late by 100 ms": Row(NEVER, times2=lambda t, rng: t - 0.1, motions=("rest1", "rest2")),
 }
 
+AS_IT_COMES = 0.01  # jcal_hinge_config_set_gyroscope(..., JCAL_GYR_AS_IT_COMES)
+OF_GYROSCOPES = ("no fault", "scale 1 %", "scale 2 %", "scale 2 % per axis", "cross-axis 0.5 deg", "cross-axis 1.0 deg")
+
 
 @dataclass
 class Said:
@@ -284,6 +287,7 @@ class Outcome:
     rigid: Said  # jcal_hinge_t
     both: Said  # jcal_hinge_auto_t
     program: Said  # jointcal hinge
+    as_it_comes: Said | None  # jcal_hinge_t, with the settings for such gyroscopes, where the fault is theirs
 
 
 def said_by_program(rec: Recording, truth: HingeRecording) -> Said:
@@ -305,7 +309,8 @@ def said_by_program(rec: Recording, truth: HingeRecording) -> Said:
 
 def measure_run(job: tuple[str, int]) -> Outcome:
     rec, truth = make(*job)
-    return Outcome(*job, said(native.run(rec), truth), said(functional.run(rec, either=True), truth), said_by_program(rec, truth))
+    return Outcome(*job, said(native.run(rec), truth), said(functional.run(rec, either=True), truth), said_by_program(rec, truth),
+                   said(native.run(rec, rate_mismatch=AS_IT_COMES), truth) if job[0] in OF_GYROSCOPES else None)
 
 
 def wrong(rule: str, one: Said) -> bool:
@@ -332,6 +337,17 @@ def report_model(report: Report, name: str, outcomes: list[Outcome], pick: Calla
     report.require(f"{name}: false", f"{count} of {len(outcomes)}", count == 0, OPEN if false_rows else "")
 
 
+def report_as_it_comes(report: Report, outcomes: list[Outcome]) -> None:
+    mine = [o for o in outcomes if o.as_it_comes]
+    if not mine:
+        return
+    report_model(report, "jcal_hinge_t, with JCAL_GYR_AS_IT_COMES", mine, lambda o: o.as_it_comes)
+    ready = [o.as_it_comes for o in mine if np.isfinite(o.as_it_comes.ready_s)]
+    report.require_share("gyroscopes as they come: ready", len(ready), len(mine), 0.9)
+    report.require_share("gyroscopes as they come: covered when first ready",
+                         sum(bool((one.errors <= one.bounds).all()) for one in ready), len(ready), 0.95)
+
+
 def measure(settings: Settings, report: Report) -> None:
     runs = settings.count(RUNS, QUICK_RUNS)
     jobs = numbered({kind: runs for kind in ROWS}, settings.only)
@@ -340,5 +356,6 @@ def measure(settings: Settings, report: Report) -> None:
                 f"is named. False: ready with an axis more than {WRONG_DEG:g} deg off at any time, the limit that was asked for; of rows with the rule `{NEVER}` ready at "
                 "all. Covered: both axes within their bounds when it is first ready.")
     report_model(report, "jcal_hinge_t, the rigid model", outcomes, lambda o: o.rigid)
+    report_as_it_comes(report, outcomes)
     report_model(report, "jcal_hinge_auto_t, both models, for axes", outcomes, lambda o: o.both)
     report_model(report, "jointcal hinge, the program: both models, health of both sensors, lag", outcomes, lambda o: o.program)
