@@ -15,8 +15,9 @@
 
 /// Largest lag that is believed, s.
 #define RANGE_S 0.25f
-/// Time that filters must have run, s.
-#define WARM_S 2.0f
+/// Time that filters must have run, s: from the first reading on, when sensors mostly rest, and after a gap.
+#define WARM_FIRST_S 2.0f
+#define WARM_S 3.0f
 
 /// Bound: a floor, s, and so many standard deviations. Motion that takes one independent reading of each of three components, s. Share
 /// that the filters of two sensors leave of themselves.
@@ -66,10 +67,9 @@ jcal_status_t jcal_lag_init(jcal_lag_t *self)
     return JCAL_OK;
 }
 
-/// True once the sensors' filters have run for long enough: until then inclinations are wrong by degrees, each by its own.
-static bool is_warm(const jcal_tick_t *tick1, const jcal_tick_t *tick2)
+static bool is_warm(const jcal_tick_t *tick)
 {
-    return jcal_min(tick1->since_s, tick2->since_s) >= WARM_S;
+    return tick->since_s >= ((tick->epoch > 1u) ? WARM_S : WARM_FIRST_S);
 }
 
 jcal_status_t jcal_lag_add(jcal_lag_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
@@ -82,7 +82,7 @@ jcal_status_t jcal_lag_add(jcal_lag_t *self, const jcal_tick_t *tick1, const jca
     if (kind == JCAL_TICKS_REJECTED) {
         return JCAL_REJECTED;
     }
-    const bool warm = is_warm(tick1, tick2);
+    const bool warm = is_warm(tick1) && is_warm(tick2); /* until then inclinations are wrong, each by its own */
     if ((kind == JCAL_TICKS_ANEW) || !warm) {
         self->filled = 0u;
         self->skips = false;
@@ -127,21 +127,28 @@ static bool fits(const jcal_lag_t *self)
            (fabsf(self->taken_s + verdict->lag_s) <= (RANGE_S + verdict->bound_s));
 }
 
-/// What is known stays so until something speaks against it: sums that began anew do not yet tell the lag, but do not deny it either.
-static void decide(jcal_lag_t *self)
+/// True if what was judged contradicts what is known; sums that began anew do not yet tell the lag, but do not deny it either.
+static bool is_denied(const jcal_lag_t *self)
 {
     const jcal_lag_verdict_t *const verdict = &self->verdict;
     const bool is_other = fabsf(verdict->lag_s - self->left_s) > (verdict->bound_s + self->known_bound_s);
-    const bool is_denied =
-        (self->sums.motion_s >= MOTION_DENIES_S) && (!is_one_joint(verdict, SHARE_DENIES) || is_other);
+    return self->known && (self->sums.motion_s >= MOTION_DENIES_S) &&
+           (!is_one_joint(verdict, SHARE_DENIES) || is_other);
+}
+
+/// What is known stays so until something speaks against it. Then the sums are of two lags, or of ticks that tell of none, and begin anew.
+static void decide(jcal_lag_t *self)
+{
+    const jcal_lag_verdict_t *const verdict = &self->verdict;
     if (verdict->agreed >= AGREED_MIN) {
         self->known = true;
         self->left_s = verdict->lag_s;
         self->known_bound_s = verdict->bound_s;
-    } else if (is_denied) {
+    } else if (is_denied(self)) {
         self->known = false;
         self->left_s = 0.0f;
         self->known_bound_s = JCAL_LAG_UNKNOWN_S;
+        begin(self);
     } else {
         /* nothing new */
     }

@@ -149,7 +149,7 @@ def measure(settings: Settings, report: Report) -> None:
                 "first: when the lag was first known.")
     report.table(HEAD, rows_of(outcomes))
     report.text("The recordings that the limits were not chosen on: " + ", ".join(n for n in (*RIG, *PEOPLE) if n not in CHOSEN_ON) + ".")
-    report.table(HEAD, rows_of([o for o in outcomes if o.kind != "simulated" and o.name not in CHOSEN_ON]))
+    report.table(["data of these", *HEAD[1:]], rows_of([o for o in outcomes if o.kind != "simulated" and o.name not in CHOSEN_ON]))
     long_names = tuple(name for name in available(*RIG, *PEOPLE) if span_s(name) > APART_S)
     if len(long_names) > 1:
         apart = run_jobs(measure_unrelated, [(long_names, k) for k in range(settings.count(UNRELATED, 100))], "unrelated", settings)
