@@ -40,7 +40,7 @@
 #define SHARE_DENIES 0.1f
 #define MOTION_DENIES_S 6.0f
 
-typedef char jcal_lag_fits_its_budget[(sizeof(jcal_lag_t) <= 4608u) ? 1 : -1];
+typedef char jcal_lag_fits_its_budget[(sizeof(jcal_lag_t) <= 4352u) ? 1 : -1];
 
 /// Everything that was learnt with other times is forgotten.
 static void begin(jcal_lag_t *self)
