@@ -18,7 +18,8 @@ enum {
     ROUNDS = 60,
     TRIALS = 4,
     TRIAL_ROUNDS = 2,
-    NEAR = 7
+    NEAR = 7,
+    NEAR_SIDE = 3
 };
 
 /* Of a share: 160 terms of float32 in a sum, and what elimination of nearly dependent levers makes of that. */
@@ -49,7 +50,7 @@ typedef struct {
 static double between(const double *at_nodes, double x)
 {
     double p[NEAR];
-    const int first = (int)fmin(fmax(floor(x + 0.5) + SIDE - NEAR / 2, 0.0), N - NEAR);
+    const int first = (int)fmin(fmax(floor(x + 0.5) + SIDE - NEAR_SIDE, 0.0), N - NEAR);
     memcpy(p, &at_nodes[first], sizeof p);
     for (int level = 1; level < NEAR; ++level) {
         for (int i = 0; i + level < NEAR; ++i) {
