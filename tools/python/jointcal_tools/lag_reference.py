@@ -37,7 +37,7 @@ NODES = 2 * SIDE + 1
 NEAR = 7  # nodes that a polynomial goes through
 EVERY = 2  # ticks of which one is summed
 RANGE_S = 0.25
-WARM_S = 2.0  # that filters must have run
+WARM_FIRST_S, WARM_S = 2.0, 3.0  # that filters must have run, from the first reading on and after a gap
 MOTION_MAX_S = 30.0  # of motion in the sums, which are halved then
 RIDGE = 1e-3  # share of the mean diagonal
 HEADINGS, TRIAL_ROUNDS, ROUNDS = 4, 2, 2  # one more round of the best heading
@@ -113,7 +113,7 @@ class Lag:
         if (tick1.epoch, tick2.epoch) != self.epochs:
             self.epochs, self.since_s = (tick1.epoch, tick2.epoch), 0.0
         self.since_s += tick1.dt_s
-        if self.since_s < WARM_S - 1e-4:
+        if self.since_s < (WARM_S if max(self.epochs) > 1 else WARM_FIRST_S) - 1e-4:
             self.ticks = 0
             self.past1.clear()
             self.past2.clear()
@@ -201,12 +201,13 @@ class Lag:
 
     def decide(self) -> None:
         """What is known stays so until something speaks against it."""
-        denied = self.sums.motion_s >= MOTION_DENIES_S and (
+        denied = self.known and self.sums.motion_s >= MOTION_DENIES_S and (
             self.share > SHARE_DENIES or self.rival < RIVAL_MIN or abs(self.lag_s - self.left_s) > self.bound_s + self.known_bound_s)
         if self.agreed >= AGREED_MIN:
             self.known, self.left_s, self.known_bound_s = True, self.lag_s, self.bound_s
         elif denied:
             self.known, self.left_s, self.known_bound_s = False, 0.0, UNKNOWN_S
+            self.begin()
 
     def shift(self) -> float:
         """What is taken off from now on, s; 0: nothing."""
