@@ -16,10 +16,10 @@
 ///     jcal_lag_result_t result;
 ///     (void)jcal_lag_get(&lag, &result);
 ///
-/// First the lag is found within +-0.25 s to some hundredths of a second and taken off, which takes some seconds of motion; then what is
-/// left, within +-0.15 s and to some milliseconds. Once the lag is known the estimator may be used for another joint.
+/// The lag is found within +-0.25 s, to some milliseconds, after some seconds of motion, and is then to be taken off. Once it is known the
+/// estimator may be used for another joint.
 ///
-/// Cost: 2.4 KiB of state. Units and frames: types.h.
+/// Cost: 4.3 KiB of state. Units and frames: types.h.
 /// Method: docs/METHOD_SENSORS.md, section 3; float64 reference: tools/python/jointcal_tools/lag_reference.py.
 /// Threads: all calls on one estimator belong to one task, or behind the caller's lock.
 #ifndef JCAL_LAG_H
@@ -38,7 +38,7 @@ extern "C" {
 
 /// What is known of the lag.
 typedef struct {
-    /// Three judgements in a row agreed within 10 ms, nothing else explained the motion as well, and none since speaks against it.
+    /// Three judgements in a row agreed within their bounds, at most 10 ms, nothing else explained the motion as well, and none since speaks against it.
     bool lag_known;
     float lag_s;    ///< Sensor 2's times are late by it, what was taken off included; that alone while it is not known.
     float bound_s;  ///< 95 % bound of it; JCAL_LAG_UNKNOWN_S while it is not known.
@@ -56,14 +56,16 @@ JCAL_MUST_CHECK jcal_status_t jcal_lag_init(jcal_lag_t *self);
 /// Cost:     about 800 multiply-adds, 5,500 instructions on a Cortex-M4F.
 jcal_status_t jcal_lag_add(jcal_lag_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2);
 
-/// One bounded slice of solving: one a hundredth of a second judges about once a second.
+/// One bounded slice of solving: one a hundredth of a second judges every 1.5 s.
 ///
 /// Returns:  JCAL_OK; JCAL_IDLE if there is too little to judge yet; JCAL_ERR_ARG.
 /// Cost:     about 1000 multiply-adds, at most 5,700 instructions on a Cortex-M4F, 3,200 in the mean; stack 0.9 KiB.
 jcal_status_t jcal_lag_step(jcal_lag_t *self);
 
-/// What is to be taken off sensor 2's times from now on, s; 0: nothing. What it returns counts as taken off, and all sums begin anew:
-/// jcal_pairing_align does both.
+/// What is to be taken off sensor 2's times from now on, s; 0: nothing, or null.
+float jcal_lag_due(const jcal_lag_t *self);
+
+/// The same, and it counts as taken off: all sums begin anew. jcal_pairing_align does both.
 float jcal_lag_take(jcal_lag_t *self);
 
 /// Copies what is known. Errors: JCAL_ERR_ARG.

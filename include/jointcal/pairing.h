@@ -83,7 +83,8 @@ jcal_status_t jcal_pairing_shift(jcal_pairing_t *self, float lag_s);
 
 /// Takes off what the estimator of the lag says is to be taken off. Call it after jcal_lag_step.
 ///
-/// Returns:  JCAL_OK: it was; JCAL_IDLE: nothing is to be; JCAL_ERR_ARG.
+/// Returns:  JCAL_OK: it was; JCAL_IDLE: nothing is to be; JCAL_ERR_ARG: null, or the shift is refused (jcal_pairing_shift); then the lag
+///           counts as left, both untouched.
 jcal_status_t jcal_pairing_align(jcal_pairing_t *self, jcal_lag_t *lag);
 
 /// Copies the counters. Errors: JCAL_ERR_ARG.

@@ -127,13 +127,16 @@ jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *ti
     if (kind == JCAL_TICKS_REJECTED) {
         return JCAL_REJECTED;
     }
-    if (kind == JCAL_TICKS_GO_ON) {
+    const bool is_cold = jcal_ticks_is_cold(tick1) || jcal_ticks_is_cold(tick2);
+    if ((kind == JCAL_TICKS_GO_ON) && !is_cold) {
         const jcal_tick_weights_t weights = jcal_ticks_weigh(&self->ticks, tick1, tick2);
         self->motion_s += weights.motion_s;
         jcal_functional_sums_add(&self->sums, tick1, tick2, &weights);
         jcal_functional_track_add(self, tick1, tick2, weights.motion_s);
-    } else {
+    } else if (kind == JCAL_TICKS_ANEW) {
         cut(self); /* work enough for one tick, which is left out */
+    } else {
+        /* left out */
     }
     const float period_s = tick1->dt_s;
     const float price = (self->verdict.status == (uint8_t)JCAL_READY) ? PRICE_READY : 1.0f;

@@ -12,6 +12,9 @@
 
 #define GRAVITY_M_S2 9.81f
 
+/// Time after a gap that filters are cold for, s. 1, 2 and 3 s were tried on a person's knee over a bad wire (docs/METHOD_PEOPLE.md).
+#define COLD_S 2.0f
+
 /// Longest distance of two ticks, s: sensor.h makes them at most 0.16 s apart. Largest sum of the squares of a tick's numbers: rates of
 /// 200 rad/s and velocities of 1600 m/s, the limits of sensor.h, make 4e6.
 #define TICK_MAX_S 0.4f
@@ -63,6 +66,11 @@ jcal_tick_weights_t jcal_ticks_weigh(jcal_tick_pair_t *self, const jcal_tick_t *
         .rate2 = self->rate2,
     };
     return weights;
+}
+
+bool jcal_ticks_is_cold(const jcal_tick_t *tick)
+{
+    return (tick->epoch > 1u) && (tick->since_s < COLD_S);
 }
 
 void jcal_ticks_forget(jcal_tick_pair_t *self)

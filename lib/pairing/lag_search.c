@@ -11,12 +11,14 @@
 #include <float.h>
 #include <math.h>
 
-/// Share of the mean diagonal that keeps levers in directions in which nothing turned at zero.
-#define RIDGE 3e-4f
-/// Headings that are tried, 90 deg apart, and rounds of each.
+/// Share of the mean diagonal that keeps levers in directions in which nothing turned at zero. It is more than what a polynomial between
+/// nodes is wrong by (0.0005 on a rig's hinge): such a direction would have less than nothing, and the levers no solution.
+#define RIDGE 1e-3f
+/// Headings that are tried, 90 deg apart, rounds of each, and those with one more round of the best.
 #define HEADINGS 4u
-#define TRIAL_ROUNDS 3u
-#define TRIAL_SLICES (HEADINGS * TRIAL_ROUNDS)
+#define TRIAL_ROUNDS 2u
+#define TRIALS (HEADINGS * TRIAL_ROUNDS)
+#define TRIAL_SLICES (TRIALS + 1u)
 /// Parabolas, their points, and rounds of each.
 #define PASSES 3u
 #define POINTS 3u
@@ -67,28 +69,37 @@ static void round_at(const jcal_lag_sums_t *sums, jcal_lag_point_t *point)
     }
 }
 
+/// One round of one of the headings of a node.
+static void try_heading(jcal_lag_search_t *search, const jcal_lag_sums_t *sums, unsigned node, unsigned part)
+{
+    static const jcal_plane_t quarters[HEADINGS] = {{1.0f, 0.0f}, {0.0f, 1.0f}, {-1.0f, 0.0f}, {0.0f, -1.0f}};
+    const unsigned number = part / TRIAL_ROUNDS;
+    if ((part % TRIAL_ROUNDS) == 0u) {
+        search->point.lag = (float)((int)node - JCAL_LAG_SIDE);
+        search->point.heading = quarters[number];
+    }
+    round_at(sums, &search->point);
+    const bool is_last = (part % TRIAL_ROUNDS) == (TRIAL_ROUNDS - 1u);
+    if (is_last && ((number == 0u) || (jcal_lag_share(&search->point) < jcal_lag_share(&search->trial)))) {
+        search->trial = search->point;
+    }
+}
+
 /// Trials: all headings of a node, then those of the next.
 static void try_node(jcal_lag_t *self)
 {
-    static const jcal_plane_t quarters[HEADINGS] = {{1.0f, 0.0f}, {0.0f, 1.0f}, {-1.0f, 0.0f}, {0.0f, -1.0f}};
     jcal_lag_search_t *const search = &self->search;
     const unsigned node = search->slice / TRIAL_SLICES;
     const unsigned part = search->slice % TRIAL_SLICES;
-    if ((part % TRIAL_ROUNDS) == 0u) {
-        search->point.lag = (float)((int)node - JCAL_LAG_SIDE);
-        search->point.heading = quarters[part / TRIAL_ROUNDS];
-    }
-    round_at(&self->sums, &search->point);
-    if ((part % TRIAL_ROUNDS) != (TRIAL_ROUNDS - 1u)) {
+    if (part < TRIALS) {
+        try_heading(search, &self->sums, node, part);
         return;
     }
-    const float share = jcal_lag_share(&search->point);
-    const bool is_first = search->slice == (TRIAL_ROUNDS - 1u);
-    if (is_first || (share < jcal_lag_share(&search->best))) {
-        search->best = search->point;
+    round_at(&self->sums, &search->trial);
+    search->least[node] = jcal_lag_share(&search->trial);
+    if ((node == 0u) || (search->least[node] < jcal_lag_share(&search->best))) {
+        search->best = search->trial;
     }
-    const bool is_first_here = part == (TRIAL_ROUNDS - 1u);
-    search->least[node] = is_first_here ? share : jcal_min(search->least[node], share);
 }
 
 static float clamped(float value, float limit)

@@ -4,8 +4,8 @@
 ///
 ///     J(lag) = min over r_1, r_2, heading of  sum |F_1(t) [1; -r_1] - Rz(heading) F_2(t + lag) [1; -r_2]|^2
 ///
-/// as a share of both sides. A round is the levers for the heading, then the heading for the levers. At each node three rounds from four
-/// headings; from the best one parabolas through three lags, two rounds at each.
+/// as a share of both sides. A round is the levers for the heading, then the heading for the levers. At each node two rounds from four
+/// headings and one more from the best of them; from the best node parabolas through three lags, two rounds at each.
 #ifndef JCAL_PAIRING_LAG_SEARCH_H
 #define JCAL_PAIRING_LAG_SEARCH_H
 
@@ -14,7 +14,7 @@
 #include <stdbool.h>
 
 /// Slices of a search.
-#define JCAL_LAG_SEARCH_SLICES 102u
+#define JCAL_LAG_SEARCH_SLICES 135u
 
 /// One slice of the search; the next call goes on. True if it was the last one: then search.best and search.bend are what was found.
 /// Cost: 1000 multiply-adds.

@@ -12,6 +12,11 @@
 
 /// Sums are halved when they hold this much motion, s.
 #define MOTION_MAX_S 30.0f
+/// Nodes of the first half of a term.
+#define FIRST_HALF ((JCAL_LAG_NODES + 1u) / 2u)
+/// Nodes that a polynomial goes through, and those on each side of the middle one.
+#define NEAR_NODES 7u
+#define NEAR_SIDE 3
 
 static jcal_lag_columns_t columns_of(const jcal_tick_t *tick)
 {
@@ -52,25 +57,43 @@ static void add_node(jcal_lag_node_t *node, const jcal_lag_columns_t *f1, const 
     }
 }
 
-void jcal_lag_sums_take(jcal_lag_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
+void jcal_lag_sums_keep(jcal_lag_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
 {
     keep(self->past1, JCAL_LAG_SIDE + 1u, tick1);
     keep(self->past2, JCAL_LAG_NODES, tick2);
     if (self->filled < JCAL_LAG_NODES) {
         self->filled = (uint8_t)(self->filled + 1u);
     }
+}
+
+void jcal_lag_sums_begin(jcal_lag_t *self)
+{
     if (self->filled < JCAL_LAG_NODES) {
         return;
     }
     jcal_lag_sums_t *const sums = &self->sums;
     add_own(sums->own1, &self->past1[0]);
-    for (size_t k = 0u; k < JCAL_LAG_NODES; ++k) {
+    for (size_t k = 0u; k < FIRST_HALF; ++k) {
         add_node(&sums->node[k], &self->past1[0], &self->past2[k]);
     }
     sums->count += 1.0f;
+    self->half_done = true;
+}
+
+bool jcal_lag_sums_finish(jcal_lag_t *self)
+{
+    if (!self->half_done) {
+        return false;
+    }
+    jcal_lag_sums_t *const sums = &self->sums;
+    for (size_t k = FIRST_HALF; k < JCAL_LAG_NODES; ++k) {
+        add_node(&sums->node[k], &self->past1[0], &self->past2[k]);
+    }
+    self->half_done = false;
     if (sums->motion_s > MOTION_MAX_S) {
         jcal_lag_sums_fade(sums, 0.5f);
     }
+    return true;
 }
 
 void jcal_lag_sums_fade(jcal_lag_sums_t *self, float share)
@@ -81,11 +104,20 @@ void jcal_lag_sums_fade(jcal_lag_sums_t *self, float share)
     }
 }
 
-/// The weight of a node in the polynomial through all of them, as Lagrange wrote it: prod (lag - other) / (own - other).
-static float weight_of(size_t node, float lag)
+/// The first of the seven nodes that are nearest to a lag.
+static size_t first_near(float lag)
+{
+    const int nearest = (int)(lag + (float)JCAL_LAG_SIDE + 0.5f);
+    const int last_first = JCAL_LAG_NODES - (int)NEAR_NODES;
+    const int first = nearest - NEAR_SIDE;
+    return (size_t)((first < 0) ? 0 : ((first > last_first) ? last_first : first));
+}
+
+/// The weight of a node in the polynomial through seven nodes from `first` on, as Lagrange wrote it: prod (lag - other) / (own - other).
+static float weight_of(size_t node, size_t first, float lag)
 {
     float weight = 1.0f;
-    for (size_t k = 0u; k < JCAL_LAG_NODES; ++k) {
+    for (size_t k = first; k < (first + NEAR_NODES); ++k) {
         if (k != node) {
             const float distance = (float)((int)node - (int)k);
             weight *= (lag - (float)((int)k - JCAL_LAG_SIDE)) / distance;
@@ -106,8 +138,9 @@ void jcal_lag_sums_at(const jcal_lag_sums_t *self, float lag, jcal_lever_sums_t 
 {
     jcal_clear(out, sizeof *out);
     jcal_copy(out->own1, self->own1, sizeof out->own1);
-    for (size_t k = 0u; k < JCAL_LAG_NODES; ++k) {
-        const float weight = weight_of(k, lag);
+    const size_t first = first_near(lag);
+    for (size_t k = first; k < (first + NEAR_NODES); ++k) {
+        const float weight = weight_of(k, first, lag);
         const jcal_lag_node_t *const node = &self->node[k];
         if (weight == 0.0f) {
             continue; /* at another node */

@@ -237,8 +237,15 @@ jcal_status_t jcal_pairing_align(jcal_pairing_t *self, jcal_lag_t *lag)
     if ((self == NULL) || (lag == NULL) || (self->period_us == 0u)) {
         return JCAL_ERR_ARG;
     }
-    const float lag_s = jcal_lag_take(lag);
-    return (lag_s == 0.0f) ? JCAL_IDLE : jcal_pairing_shift(self, lag_s);
+    const float lag_s = jcal_lag_due(lag);
+    if (lag_s == 0.0f) {
+        return JCAL_IDLE;
+    }
+    const jcal_status_t status = jcal_pairing_shift(self, lag_s);
+    if (status == JCAL_OK) {
+        (void)jcal_lag_take(lag);
+    }
+    return status;
 }
 
 jcal_status_t jcal_pairing_get(const jcal_pairing_t *self, jcal_pairing_result_t *out)

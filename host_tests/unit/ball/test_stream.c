@@ -9,6 +9,7 @@
 #include "unit/ball/fixture.h"
 
 #include <stddef.h>
+#include <string.h>
 
 /* Arms of a test that tries many. On an emulated target the made-up motion is what takes time; few show that the code is the same. */
 #ifdef JCAL_TEST_SHORT
@@ -270,6 +271,40 @@ static void a_gap_with_another_heading_is_survived(void)
     TEST_ASSERT_DOUBLE_WITHIN(
         0.01, 0.0,
         remainder(atan2((double)past->heading.im, (double)past->heading.re) - run.arm.heading, 2.0 * MOTION_PI));
+}
+
+/* For two seconds after a gap the inclination of a sensor is wrong by degrees: those ticks are left out, whichever sensor began later. After
+ * the very first reading they are not. */
+static void cold_ticks_are_left_out(void)
+{
+    const hinge_t arm = arm_usual();
+    run_begin(&run, &arm, NULL);
+    run_for(&run, 4.0);
+    for (uint32_t epoch = 2u; epoch <= 3u; ++epoch) {
+        run.epoch = epoch;
+        run_tick(&run); /* cuts */
+        const jcal_ball_sums_t before = run.joint.sums;
+        const float motion_s = run.joint.motion_s;
+        for (int k = 1; k <= 40; ++k) {
+            jcal_tick_t tick1;
+            jcal_tick_t tick2;
+            run_make(&run, &tick1, &tick2);
+            (((k + (int)epoch) % 2 == 0) ? &tick1 : &tick2)->since_s = 0.05f * (float)k + 1e-4f;
+            TEST_ASSERT_EQUAL_MEMORY(&before, &run.joint.sums, sizeof before);
+            TEST_ASSERT_EQUAL_FLOAT(motion_s, run.joint.motion_s);
+            TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_ball_add(&run.joint, &tick1, &tick2));
+            ++run.next;
+        }
+        TEST_ASSERT_TRUE(run.joint.motion_s > motion_s);
+        TEST_ASSERT_TRUE(run.joint.sums.motion_s > before.motion_s);
+    }
+    run_begin(&run, &arm, NULL);
+    jcal_tick_t first1;
+    jcal_tick_t first2;
+    run_make(&run, &first1, &first2);
+    first1.since_s = first2.since_s = 0.05f;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_ball_add(&run.joint, &first1, &first2));
+    TEST_ASSERT_TRUE(run.joint.motion_s > 0.0f);
 }
 
 /* At rest nothing is learnt of the heading, and nothing forgotten: noise does not become a heading. But gyroscopes may drift, by 0.25 deg/s, so
@@ -740,6 +775,7 @@ int main(void)
     RUN_TEST(times_do_not_matter_but_for_their_order);
     RUN_TEST(ticks_that_are_refused_leave_no_trace);
     RUN_TEST(a_gap_with_another_heading_is_survived);
+    RUN_TEST(cold_ticks_are_left_out);
     RUN_TEST(rest_forgets_nothing_and_is_less_sure);
     RUN_TEST(a_gap_of_one_sensor_is_one_of_both);
     RUN_TEST(gaps_before_the_first_estimate_leave_nothing_behind);

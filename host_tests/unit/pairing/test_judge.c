@@ -21,16 +21,10 @@ static const double COUNT = 100.0;
 
 static jcal_lag_t lag;
 
-static void begin(uint8_t stride)
-{
-    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_init(&lag));
-    lag.stride = stride;
-    lag.node_s = 0.05f * (float)stride;
-}
-
 void setUp(void)
 {
-    begin(1u);
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_init(&lag));
+    lag.node_s = 0.05f;
 }
 
 void tearDown(void)
@@ -57,8 +51,10 @@ static void judge(const finding_t *found)
     }
     search->slice = (uint8_t)(JCAL_LAG_SEARCH_SLICES - 1u);
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_lag_step(&lag));
-    TEST_ASSERT_FLOAT_WITHIN(2e-6f, (float)found->lag_s, lag.verdict.lag_s);
-    TEST_ASSERT_FLOAT_WITHIN(1e-4f * (float)found->bend, (float)found->bend, search->bend);
+    if (lag.sums.motion_s > 0.0f) { /* else all began anew */
+        TEST_ASSERT_FLOAT_WITHIN(2e-6f, (float)found->lag_s, lag.verdict.lag_s);
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f * (float)found->bend, (float)found->bend, search->bend);
+    }
 }
 
 static void judge_times(const finding_t *found, int times)
@@ -89,16 +85,6 @@ static bool is_known_after(finding_t found, int times)
     return result().lag_known;
 }
 
-/* A rough finding that is believed makes the nodes finer. */
-static bool is_taken_after(finding_t found, int times)
-{
-    begin(2u);
-    judge_times(&found, times);
-    TEST_ASSERT_FALSE(result().lag_known); /* a rough lag is none */
-    (void)jcal_lag_take(&lag);
-    return lag.stride == 1u;
-}
-
 static void three_findings_make_a_lag(void)
 {
     TEST_ASSERT_FALSE(is_known_after(usual, 2));
@@ -116,17 +102,17 @@ static void three_findings_make_a_lag(void)
 static void what_speaks_against_a_finding(void)
 {
     static const finding_t is[] = {
-        {0.010, 0.099, 0.9, 4.0, 8.0, 0.01},    /* share that is left */
+        {0.010, 0.049, 0.9, 4.0, 8.0, 0.01},    /* share that is left */
         {0.010, 0.02, 0.0505, 1.0, 8.0, 0.01},  /* what another lag leaves, 2.5 times as much */
         {0.010, 0.001, 0.0255, 1.0, 8.0, 0.01}, /* the same where hardly anything is left: of 1 % */
-        {0.010, 0.02, 0.2, 1.0, 6.01, 0.01},    /* motion */
+        {0.010, 0.02, 0.2, 1.0, 3.01, 0.01},    /* motion */
         {0.010, 0.02, 0.2, 1.0, 8.0, 0.00161},  /* speed of the centre */
         {0.010, 0.02, 0.2, 0.18, 8.0, 0.01}, /* bound: 1.1 x 0.05 s x sqrt(0.044 / (24 x 0.18)) and 2 ms are 7.6 ms */
-        {0.149, 0.02, 0.2, 1.0, 8.0, 0.01},
+        {0.249, 0.02, 0.2, 1.0, 8.0, 0.01},
     };
     static const finding_t is_not[] = {
-        {0.010, 0.101, 0.9, 4.0, 8.0, 0.01},    {0.010, 0.02, 0.0495, 1.0, 8.0, 0.01},
-        {0.010, 0.001, 0.0245, 1.0, 8.0, 0.01}, {0.010, 0.02, 0.2, 1.0, 5.99, 0.01},
+        {0.010, 0.051, 0.9, 4.0, 8.0, 0.01},    {0.010, 0.02, 0.0495, 1.0, 8.0, 0.01},
+        {0.010, 0.001, 0.0245, 1.0, 8.0, 0.01}, {0.010, 0.02, 0.2, 1.0, 2.99, 0.01},
         {0.010, 0.02, 0.2, 1.0, 8.0, 0.00159},  {0.010, 0.02, 0.2, 0.08, 8.0, 0.01}, /* 10.3 ms */
     };
     for (size_t k = 0u; k < sizeof is / sizeof is[0]; ++k) {
@@ -135,23 +121,6 @@ static void what_speaks_against_a_finding(void)
     for (size_t k = 0u; k < sizeof is_not / sizeof is_not[0]; ++k) {
         TEST_ASSERT_FALSE(is_known_after(is_not[k], 6));
     }
-}
-
-static void a_rough_lag_needs_less(void)
-{
-    static const finding_t is[] = {
-        {0.20, 0.02, 0.2, 1.0, 2.01, 0.01}, {0.20, 0.099, 0.9, 4.0, 2.01, 0.01}, {0.20, 0.02, 0.2, 0.05, 3.0, 0.01}};
-    static const finding_t is_not[] = {
-        {0.20, 0.02, 0.2, 1.0, 1.99, 0.01}, {0.20, 0.101, 0.9, 4.0, 2.01, 0.01}, {0.20, 0.02, 0.2, 0.015, 3.0, 0.01}};
-    for (size_t k = 0u; k < sizeof is / sizeof is[0]; ++k) {
-        TEST_ASSERT_FALSE(is_taken_after(is[k], 1));
-        TEST_ASSERT_TRUE(is_taken_after(is[k], 2));
-    }
-    for (size_t k = 0u; k < sizeof is_not / sizeof is_not[0]; ++k) {
-        TEST_ASSERT_FALSE(is_taken_after(is_not[k], 6));
-    }
-    finding_t usual_rough = usual;
-    TEST_ASSERT_TRUE(is_taken_after(usual_rough, 6)); /* with enough motion for a lag that is known, too */
 }
 
 /* 0.25 s and the bound, of all that was taken off. */
@@ -206,49 +175,50 @@ static void what_is_known_stays_until_something_speaks_against_it(void)
     TEST_ASSERT_FALSE(result().lag_known);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, result().lag_s);
     TEST_ASSERT_EQUAL_FLOAT(JCAL_LAG_UNKNOWN_S, result().bound_s);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, lag.sums.motion_s);
 }
 
+/* As long as nothing is known sums go on. */
+static void what_does_not_fit_begins_nothing_anew_before(void)
+{
+    finding_t other = usual;
+    other.share = 0.3;
+    other.rival = 0.9;
+    judge_times(&other, 4);
+    TEST_ASSERT_EQUAL_FLOAT(8.0f, lag.sums.motion_s);
+}
+
+static bool is_known_after_another(finding_t other)
+{
+    setUp();
+    judge_times(&usual, 3);
+    judge(&other);
+    TEST_ASSERT_TRUE((lag.sums.motion_s > 0.0f) == result().lag_known); /* what denies begins anew */
+    return result().lag_known;
+}
+
+/* What speaks against a lag that is known is more than what keeps one from becoming known: a share of 10 %, and 6 s of motion. */
 static void a_joint_that_is_none_denies_what_was_known(void)
 {
     finding_t other = usual;
-    judge_times(&usual, 3);
-    other.share = 0.11;
     other.rival = 0.9;
-    judge(&other);
-    TEST_ASSERT_FALSE(result().lag_known);
-    setUp();
-    judge_times(&usual, 3);
+    other.share = 0.101;
+    TEST_ASSERT_FALSE(is_known_after_another(other));
+    other.share = 0.099;
+    TEST_ASSERT_TRUE(is_known_after_another(other));
     other = usual;
     other.rival = 0.04;
-    judge(&other);
-    TEST_ASSERT_FALSE(result().lag_known);
+    TEST_ASSERT_FALSE(is_known_after_another(other));
+    other.motion_s = 6.01;
+    TEST_ASSERT_FALSE(is_known_after_another(other));
+    other.motion_s = 5.99;
+    TEST_ASSERT_TRUE(is_known_after_another(other));
 }
 
 static void sums_that_began_anew_deny_nothing(void)
 {
-    finding_t other = {0.1, 0.5, 0.6, 1.0, 5.9, 0.01};
-    judge_times(&usual, 3);
-    judge(&other);
-    TEST_ASSERT_TRUE(result().lag_known);
-}
-
-/* 40 ms and less stay: finer nodes reach that far. */
-static void a_rough_lag_is_taken_off_if_it_is_large(void)
-{
-    finding_t found = usual;
-    begin(2u);
-    found.lag_s = 0.039;
-    judge_times(&found, 2);
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_lag_take(&lag));
-    TEST_ASSERT_EQUAL_UINT8(1u, lag.stride);
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, lag.sums.motion_s);
-    begin(2u);
-    found.lag_s = -0.041;
-    judge_times(&found, 2);
-    TEST_ASSERT_FLOAT_WITHIN(2e-6f, -0.041f, jcal_lag_take(&lag));
-    TEST_ASSERT_FLOAT_WITHIN(2e-6f, -0.041f, result().taken_s);
-    TEST_ASSERT_EQUAL_UINT8(1u, lag.stride);
-    TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_lag_take(&lag)); /* once */
+    const finding_t other = {0.1, 0.5, 0.6, 1.0, 5.9, 0.01};
+    TEST_ASSERT_TRUE(is_known_after_another(other));
 }
 
 static void what_is_taken_off_adds_up(void)
@@ -256,7 +226,11 @@ static void what_is_taken_off_adds_up(void)
     lag.taken_s = 0.1f;
     judge_times(&usual, 3);
     TEST_ASSERT_FLOAT_WITHIN(2e-6f, 0.11f, result().lag_s);
+    TEST_ASSERT_FLOAT_WITHIN(2e-6f, 0.01f, jcal_lag_due(&lag));
+    TEST_ASSERT_EQUAL_FLOAT(8.0f, lag.sums.motion_s);
     TEST_ASSERT_FLOAT_WITHIN(2e-6f, 0.01f, jcal_lag_take(&lag));
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, lag.sums.motion_s);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, jcal_lag_take(&lag)); /* once */
     TEST_ASSERT_FLOAT_WITHIN(2e-6f, 0.11f, result().taken_s);
     TEST_ASSERT_FLOAT_WITHIN(2e-6f, 0.11f, result().lag_s);
     TEST_ASSERT_TRUE(result().lag_known);
@@ -296,21 +270,44 @@ static void a_pairing_takes_off_what_was_found(void)
     TEST_ASSERT_EQUAL_INT(JCAL_IDLE, jcal_pairing_align(&pairing, &lag));
 }
 
+/* 0.3 s in all are the most that a pairing takes off: what it refuses is not taken off. */
+static void a_shift_that_is_refused_counts_as_left(void)
+{
+    static jcal_pairing_t pairing;
+    const jcal_pairing_config_t config = jcal_pairing_config_default();
+    jcal_pairing_result_t out;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_init(&pairing, &config));
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, 0.295f)); /* by hand */
+    judge_times(&usual, 3);
+    for (int k = 0; k < 2; ++k) {
+        TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_pairing_align(&pairing, &lag));
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_get(&pairing, &out));
+        TEST_ASSERT_FLOAT_WITHIN(2e-6f, 0.295f, out.shift_s);
+        TEST_ASSERT_TRUE(result().lag_known);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, result().taken_s);
+        TEST_ASSERT_FLOAT_WITHIN(2e-6f, 0.010f, result().lag_s);
+        TEST_ASSERT_EQUAL_FLOAT(8.0f, lag.sums.motion_s);
+    }
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_shift(&pairing, -0.1f)); /* now there is room */
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_pairing_align(&pairing, &lag));
+    TEST_ASSERT_FLOAT_WITHIN(2e-6f, 0.010f, result().taken_s);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(three_findings_make_a_lag);
     RUN_TEST(what_speaks_against_a_finding);
-    RUN_TEST(a_rough_lag_needs_less);
     RUN_TEST(a_lag_has_a_range);
     RUN_TEST(findings_must_agree);
     RUN_TEST(what_is_known_stays_until_something_speaks_against_it);
+    RUN_TEST(what_does_not_fit_begins_nothing_anew_before);
     RUN_TEST(a_joint_that_is_none_denies_what_was_known);
     RUN_TEST(sums_that_began_anew_deny_nothing);
-    RUN_TEST(a_rough_lag_is_taken_off_if_it_is_large);
     RUN_TEST(what_is_taken_off_adds_up);
     RUN_TEST(a_small_lag_stays);
     RUN_TEST(what_is_left_is_at_most_all);
     RUN_TEST(a_pairing_takes_off_what_was_found);
+    RUN_TEST(a_shift_that_is_refused_counts_as_left);
     return UNITY_END();
 }

@@ -114,8 +114,8 @@ static void print(const session_t *session)
     }
     const lag_found_t lag = lag_watch_found(&session->lag);
     if (lag.known) {
-        (void)printf("  %-18s sensor 2 is late by %.0f ms, to within %.0f\n", "lag", 1e3 * lag.lag_s,
-                     1e3 * lag.bound_s);
+        (void)printf("  %-18s sensor 2 is late by %ld ms, to within %.0f\n", "lag", lround(1e3 * lag.lag_s),
+                     1e3 * lag.bound_s); /* a whole number has no -0 */
     }
     for (int k = 0; k < session->sensors; k++) {
         const jcal_health_result_t result = check_health_of(&session->reading.recording.check, k);

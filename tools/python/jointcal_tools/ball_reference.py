@@ -27,7 +27,7 @@ import numpy as np
 from .functional_reference import (BLOCK_MOTION_S, BLOCK_S, BLOCKS, DEG, FLOORS, HEADINGS, JUDGE_EVERY_S, LASTING, MEMORY_S,  # noqa: F401
                                    MOTION_FIRST_S, MOTION_MAX_BEFORE_S, MOTION_MAX_S, RATE_SMOOTHING_S, ROWS, about_z,
                                    complex_rows, lever_rows, nearest_rotation, weights_of)
-from .functional_sensor import Tick
+from .functional_sensor import Tick, Warmth
 
 SIZE_FLOOR = 5e-5  # (m/s)^2
 RIDGE = 3e-4  # share of the mean diagonal
@@ -400,15 +400,19 @@ class Ball:
         self.has_estimate = self.merged = self.was_joint = False
         self.turn = 0
         self.epochs: tuple[int, int] | None = None
+        self.warmth = Warmth()
 
     def add(self, tick1: Tick, tick2: Tick) -> bool:
         """True if there was a judgement."""
         epochs = (tick1.epoch, tick2.epoch)
+        is_cold = self.warmth.is_cold(tick1, tick2)
         if self.epochs not in (None, epochs):
             self.epochs = epochs
             self.cut()
             return False
         self.epochs = epochs
+        if is_cold:
+            return False
         self.gravity_off = max(abs(tick.acc_level - 9.81) for tick in (tick1, tick2))
         rate2 = float(tick1.gyr @ tick1.gyr + tick2.gyr @ tick2.gyr)
         self.rate2 += tick1.dt_s / (tick1.dt_s + RATE_SMOOTHING_S) * (rate2 - self.rate2)
@@ -450,9 +454,9 @@ class Ball:
             self.past.known = 0.0
 
     def begin_anew(self) -> None:
-        epochs = self.epochs
+        epochs, warmth = self.epochs, self.warmth
         self.__init__()
-        self.epochs = epochs
+        self.epochs, self.warmth = epochs, warmth
 
     def round(self, point: Point) -> None:
         put_levers(self.sums, point)

@@ -34,7 +34,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .functional_sensor import Tick
+from .functional_sensor import Tick, Warmth
 
 DEG = np.pi / 180.0
 TURN, RATE, LEVER = range(3)
@@ -536,6 +536,7 @@ class Joint:
         self.sums, self.point, self.verdict = Sums(), Point(), Verdict()
         self.rate2 = self.motion_s = self.since_s = self.gravity_off = 0.0
         self.epochs: tuple[int, int] | None = None
+        self.warmth = Warmth()
         self.merged = self.has_estimate = self.was_ready = False
         self.turn = 0
 
@@ -545,6 +546,8 @@ class Joint:
         if self.epochs not in (None, epochs):
             self.cut()
         self.epochs = epochs
+        if self.warmth.is_cold(tick1, tick2):
+            return False
         self.gravity_off = max(abs(tick.acc_level - 9.81) for tick in (tick1, tick2))
         rate2 = float(tick1.gyr @ tick1.gyr + tick2.gyr @ tick2.gyr)
         self.rate2 += tick1.dt_s / (tick1.dt_s + RATE_SMOOTHING_S) * (rate2 - self.rate2)

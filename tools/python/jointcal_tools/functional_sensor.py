@@ -33,6 +33,23 @@ class Tick(NamedTuple):
     acc_level: float  # mean vertical specific force, m/s^2
 
 
+COLD_S = 2.0  # after a gap: inclinations are still wrong by degrees, and joints leave such ticks out
+
+
+class Warmth:
+    """Whether the filters of two sensors have run for long enough since a gap."""
+
+    def __init__(self) -> None:
+        self.epochs: tuple[int, int] | None = None
+        self.since_s = 0.0
+
+    def is_cold(self, tick1: Tick, tick2: Tick) -> bool:
+        epochs = (tick1.epoch, tick2.epoch)
+        self.since_s = (self.since_s if epochs == self.epochs else 0.0) + tick1.dt_s
+        self.epochs = epochs
+        return max(epochs) > 1 and self.since_s < COLD_S - 1e-4
+
+
 def epochs(t_s: np.ndarray) -> list[slice]:
     """Stretches without a gap."""
     dt = np.diff(t_s)

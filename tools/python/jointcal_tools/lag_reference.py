@@ -14,13 +14,10 @@ F_i = [U_i B_i] and a heading h (level frame 2 to level frame 1),
     J(lag) = min over r_1, r_2, h of  sum |F_1(t) x_1 - Rz(h) F_2(t + lag) x_2|^2.
 
 The lag is where J is least: sensor 2 says too late by it. What depends on the lag is the
-products of F_1 and F_2 and those of F_2; they are summed at NODES lags, and between them they
-are the polynomial through all of them. No axis is asked for, and neither the lengths of the
+products of F_1 and F_2 and those of F_2; they are summed at NODES lags, one tick apart, and
+between them they are the polynomial through the nearest NEAR of them. Every second tick is summed. No axis is asked for, and neither the lengths of the
 rates, which differ by what the joint does, nor anything faster than 3 Hz, where skin moves by
 itself.
-
-Nodes are two ticks apart at first, +-0.3 s in all. Once the lag is known to some hundredths of a
-second it is taken off, and from then on they are one tick apart.
 
 No arithmetic is shared with the C code. Constants are the same.
 """
@@ -35,25 +32,24 @@ import numpy as np
 from .functional_reference import RATE_SMOOTHING_S, complex_rows, lever_rows, weights_of
 from .functional_sensor import Tick
 
-SIDE = 3  # nodes on each side of zero
+SIDE = 6  # nodes on each side of zero
 NODES = 2 * SIDE + 1
-STRIDE_FIRST = 2  # ticks from node to node
+NEAR = 7  # nodes that a polynomial goes through
+EVERY = 2  # ticks of which one is summed
 RANGE_S = 0.25
-WARM_FIRST_S, WARM_S = 1.0, 2.0  # that filters must have run, before the lag is taken off roughly, and then
+WARM_FIRST_S, WARM_S = 2.0, 3.0  # that filters must have run, from the first reading on and after a gap
 MOTION_MAX_S = 30.0  # of motion in the sums, which are halved then
-RIDGE = 3e-4  # share of the mean diagonal
-HEADINGS, TRIAL_ROUNDS, ROUNDS = 4, 3, 2
+RIDGE = 1e-3  # share of the mean diagonal
+HEADINGS, TRIAL_ROUNDS, ROUNDS = 4, 2, 2  # one more round of the best heading
 PASSES = 3  # parabolas
 STEP_NODES = 0.25  # distance of a parabola's points, nodes
 STEP_MAX_NODES = 0.5
 NEIGHBOUR_NODES = 1.5
 
 FLOOR_S, SHARE, READING_S, SHARE_FLOOR = 0.002, 1.1, 1.0, 0.002
-LACK_MAX, RIVAL_MIN, RIVAL_FLOOR, SPEED2_MIN = 0.1, 2.5, 0.01, 0.0016
-MOTION_FIRST_S, MOTION_MIN_S = 2.0, 6.0  # before the lag is taken off roughly, and before it is known
-BOUND_FIRST_S, BOUND_MAX_S = 0.050, 0.010
-AGREED_FIRST, AGREED_MIN = 2, 3
-STAYS_S = 0.04  # a rough lag below this is left where it is
+SHARE_MAX, RIVAL_MIN, RIVAL_FLOOR, SPEED2_MIN = 0.05, 2.5, 0.01, 0.0016
+MOTION_MIN_S, BOUND_MAX_S, AGREED_MIN = 3.0, 0.010, 3
+SHARE_DENIES, MOTION_DENIES_S = 0.1, 6.0  # what speaks against a lag that is known, and after how much motion
 UNKNOWN_S = 1.0
 
 
@@ -86,15 +82,18 @@ class Sums:
 
 
 def between(lag: float) -> np.ndarray:
-    """Weights (NODES,) of the polynomial through all nodes."""
+    """Weights (NODES,) of the polynomial through the nearest nodes."""
     at = np.arange(-SIDE, SIDE + 1.0)
-    return np.array([np.prod([(lag - b) / (a - b) for b in at if b != a]) for a in at])
+    first = int(np.clip(np.floor(lag + 0.5) + SIDE - NEAR // 2, 0, NODES - NEAR))
+    near = at[first : first + NEAR]
+    weights = np.zeros(NODES)
+    weights[first : first + NEAR] = [np.prod([(lag - b) / (a - b) for b in near if b != a]) for a in near]
+    return weights
 
 
 class Lag:
     def __init__(self) -> None:
-        self.stride = STRIDE_FIRST
-        self.epochs, self.ticks, self.node_s, self.rate2, self.since_s = (0, 0), 0, 0.1, 0.0, 0.0
+        self.epochs, self.ticks, self.node_s, self.rate2, self.since_s = (0, 0), 0, 0.05, 0.0, 0.0
         self.past1: deque[np.ndarray] = deque(maxlen=SIDE + 1)
         self.past2: deque[np.ndarray] = deque(maxlen=NODES)
         self.applied_s, self.left_s, self.known, self.known_bound_s = 0.0, 0.0, False, UNKNOWN_S
@@ -114,7 +113,7 @@ class Lag:
         if (tick1.epoch, tick2.epoch) != self.epochs:
             self.epochs, self.since_s = (tick1.epoch, tick2.epoch), 0.0
         self.since_s += tick1.dt_s
-        if self.since_s < (WARM_FIRST_S if self.stride > 1 else WARM_S) - 1e-4:
+        if self.since_s < (WARM_S if max(self.epochs) > 1 else WARM_FIRST_S) - 1e-4:
             self.ticks = 0
             self.past1.clear()
             self.past2.clear()
@@ -123,12 +122,11 @@ class Lag:
         self.rate2 += tick1.dt_s / (tick1.dt_s + RATE_SMOOTHING_S) * (rate2 - self.rate2)
         self.sums.motion_s += weights_of(tick1.dt_s, self.rate2).motion_s
         self.ticks += 1
-        if self.ticks % self.stride == 0:
-            self.node_s = self.stride * tick1.dt_s
-            self.past1.append(lever_rows(tick1))
-            self.past2.append(lever_rows(tick2))
-            if len(self.past2) == NODES:
-                self.put()
+        self.node_s = tick1.dt_s
+        self.past1.append(lever_rows(tick1))
+        self.past2.append(lever_rows(tick2))
+        if len(self.past2) == NODES and self.ticks % EVERY == 1:
+            self.put()
 
     def put(self) -> None:
         s, f1 = self.sums, self.past1[0]
@@ -166,8 +164,9 @@ class Lag:
 
     def search(self) -> list[Point]:
         """The best point at each node."""
-        return [min((self.solved(float(k), 1j**q, TRIAL_ROUNDS) for q in range(HEADINGS)), key=lambda p: p.share)
+        best = [min((self.solved(float(k), 1j**q, TRIAL_ROUNDS) for q in range(HEADINGS)), key=lambda p: p.share)
                 for k in range(-SIDE, SIDE + 1)]
+        return [self.solved(p.lag, p.heading, 1) for p in best]
 
     def refine(self, point: Point) -> tuple[Point, float]:
         """The least J by parabolas, and its second derivative, as a share of both sides, per node^2."""
@@ -195,32 +194,27 @@ class Lag:
         if bend > 0.0 and readings > 0.0:
             spread = self.node_s * np.sqrt(2.0 * (point.share + SHARE_FLOOR) / (bend * readings))
             self.bound_s = min(FLOOR_S + SHARE * spread, UNKNOWN_S)
-        rough = self.stride > 1
-        fits = (s.motion_s >= (MOTION_FIRST_S if rough else MOTION_MIN_S) and self.speed2 >= SPEED2_MIN
-                and self.share <= LACK_MAX and self.rival >= RIVAL_MIN
-                and self.bound_s <= (BOUND_FIRST_S if rough else BOUND_MAX_S)
-                and abs(self.applied_s + self.lag_s) <= RANGE_S + self.bound_s)
+        fits = (s.motion_s >= MOTION_MIN_S and self.speed2 >= SPEED2_MIN and self.share <= SHARE_MAX and self.rival >= RIVAL_MIN
+                and self.bound_s <= BOUND_MAX_S and abs(self.applied_s + self.lag_s) <= RANGE_S + self.bound_s)
         self.agreed = (self.agreed + 1 if abs(self.lag_s - before) <= self.bound_s else 1) if fits else 0
-        if not rough and s.motion_s >= MOTION_MIN_S:
-            self.decide()
+        self.decide()
 
     def decide(self) -> None:
         """What is known stays so until something speaks against it."""
-        denied = self.share > LACK_MAX or self.rival < RIVAL_MIN or abs(self.lag_s - self.left_s) > self.bound_s + self.known_bound_s
+        denied = self.known and self.sums.motion_s >= MOTION_DENIES_S and (
+            self.share > SHARE_DENIES or self.rival < RIVAL_MIN or abs(self.lag_s - self.left_s) > self.bound_s + self.known_bound_s)
         if self.agreed >= AGREED_MIN:
             self.known, self.left_s, self.known_bound_s = True, self.lag_s, self.bound_s
         elif denied:
             self.known, self.left_s, self.known_bound_s = False, 0.0, UNKNOWN_S
+            self.begin()
 
     def shift(self) -> float:
         """What is taken off from now on, s; 0: nothing."""
-        rough = self.stride > 1
-        if self.agreed < (AGREED_FIRST if rough else AGREED_MIN):
+        if self.agreed < AGREED_MIN or abs(self.lag_s) <= self.bound_s:
             return 0.0
-        self.stride = 1
-        off = self.lag_s if abs(self.lag_s) > (STAYS_S if rough else self.bound_s) else 0.0
-        if rough or off != 0.0:
-            self.applied_s += off
-            self.left_s = 0.0
-            self.begin()
+        off = self.lag_s
+        self.applied_s += off
+        self.left_s = 0.0
+        self.begin()
         return off

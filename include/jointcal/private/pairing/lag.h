@@ -16,8 +16,8 @@
 extern "C" {
 #endif
 
-/// Nodes, the lags at which is summed, on each side of zero; and all of them.
-#define JCAL_LAG_SIDE 3
+/// Nodes, the lags at which is summed, on each side of zero; and all of them. They are one tick apart.
+#define JCAL_LAG_SIDE 6
 #define JCAL_LAG_NODES ((2 * JCAL_LAG_SIDE) + 1)
 
 /// [U B] of a tick, column by column.
@@ -50,6 +50,7 @@ typedef struct {
 /// Where the search is.
 typedef struct {
     jcal_lag_point_t point;       ///< That is worked at.
+    jcal_lag_point_t trial;       ///< The best of the headings at this node.
     jcal_lag_point_t best;        ///< The best so far; then the middle of the parabola.
     float least[JCAL_LAG_NODES];  ///< Least share that is left at each node.
     float before, after;          ///< Share on both sides of the middle.
@@ -79,10 +80,11 @@ typedef struct {
     float taken_s;        ///< Lag that was taken off.
     float left_s;         ///< Lag beside it that is known.
     float known_bound_s;  ///< Bound of both together; JCAL_LAG_UNKNOWN_S before it is known.
-    uint8_t stride;       ///< Ticks from node to node; 0: not prepared.
-    uint8_t skipped;      ///< Ticks since the last that was taken.
     uint8_t filled;       ///< Ticks in past2.
+    bool skips;           ///< The next tick is kept only: every second one is summed.
+    bool half_done;       ///< The last tick is not yet in the sums of all nodes.
     bool known;
+    bool prepared;
 } jcal_lag_t;
 
 #ifdef __cplusplus

