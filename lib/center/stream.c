@@ -3,6 +3,7 @@
 /// Stream engine of the joint centre: samples into sums, and the schedule of the work.
 #include "jointcal/center.h"
 
+#include "center/gravity.h"
 #include "center/input.h"
 #include "center/judge.h"
 #include "center/model.h"
@@ -61,6 +62,7 @@ static void begin_anew(jcal_center_t *self, jcal_calibration_t status)
     jcal_clear(&self->work.sums, sizeof self->work.sums);
     jcal_clear(&self->watch, sizeof self->watch);
     jcal_clear(&self->heading, sizeof self->heading);
+    jcal_center_gravity_forget(&self->work.gravity);
     self->heading_s = 0.0f;
     self->moving_s = 0.0f;
     self->turn = 0u;
@@ -147,6 +149,8 @@ static void take_in(jcal_center_t *self, const jcal_kinematic_t *sample)
     const float rate2 = sample->body2.rate2;
     const float motion_s = sample->dt_s * jcal_watch_motion(rate1 + rate2);
     self->t_us = sample->t_us;
+    jcal_center_gravity_add(&self->work.gravity, sample, self->has_point ? &self->work.sums.point : NULL,
+                            jcal_center_input_turns(&self->cfg));
     if (!self->has_point && !self->has_start) {
         add_moments(self, sample);
         self->moving_s += motion_s;
