@@ -19,6 +19,8 @@
 #define MEAN_S 3.0f
 #define WARM_S 1.0f
 #define KNOWN_S 2.0f
+/// Least mean force that has a direction, m/s^2.
+#define FORCE_MIN 1.0f
 /// The mean lengths remember so much time, s.
 #define MEMORY_S 60.0f
 /// A longer pause than this begins new means, us: the frames may have begun anew in it.
@@ -51,21 +53,18 @@ static void halve_sides(jcal_center_gravity_t *self)
     self->power_s *= 0.5f;
 }
 
-static void add_sides(jcal_center_gravity_t *self, const jcal_kinematic_t *sample, const jcal_center_place_t *place)
+/// `up1` and `up2` are the directions of gravity.
+static void add_sides(jcal_center_gravity_t *self, const jcal_kinematic_t *sample, const jcal_center_place_t *place,
+                      jcal_vec3_t up1, jcal_vec3_t up2)
 {
-    const float length1 = jcal_vec3_norm(self->mean1);
-    const float length2 = jcal_vec3_norm(self->mean2);
-    if (!((length1 > 1.0f) && (length2 > 1.0f))) {
-        return; /* no gravity, which is said otherwise */
-    }
     const jcal_vec3_t f1 = jcal_vec3_sub(sample->body1.a, jcal_body_times(&sample->body1, place->r1));
     const jcal_vec3_t f2 = jcal_vec3_sub(sample->body2.a, jcal_body_times(&sample->body2, place->r2));
-    const jcal_plane_t h1 = across(jcal_vec3_scale(self->mean1, 1.0f / length1), f1);
-    const jcal_plane_t h2 = across(jcal_vec3_scale(self->mean2, 1.0f / length2), f2);
+    const jcal_plane_t h1 = across(up1, f1);
+    const jcal_plane_t h2 = across(up2, f2);
     const float dt_s = sample->dt_s;
     self->turned = jcal_plane_add(self->turned, dt_s, jcal_plane_against(h2, h1));
     self->mirrored = jcal_plane_add(self->mirrored, dt_s, jcal_plane_times(h2, h1));
-    self->power += dt_s * jcal_plane_norm(h1) * jcal_plane_norm(h2);
+    self->power += dt_s * sqrtf(jcal_plane_norm2(h1) * jcal_plane_norm2(h2));
     self->power_s += dt_s;
     if (self->power_s > (2.0f * SIDES_S)) {
         halve_sides(self);
@@ -82,7 +81,7 @@ static void add_levels(jcal_center_gravity_t *self, float length1, float length2
 }
 
 void jcal_center_gravity_add(jcal_center_gravity_t *self, const jcal_kinematic_t *sample,
-                             const jcal_center_point_t *point, bool is_turning)
+                             const jcal_center_place_t *place, bool is_turning)
 {
     const bool goes_on = (sample->t_us - self->last_us) < PAUSE_US;
     const float dt_s = sample->dt_s;
@@ -98,9 +97,12 @@ void jcal_center_gravity_add(jcal_center_gravity_t *self, const jcal_kinematic_t
     if (self->chain_s < WARM_S) {
         return;
     }
-    add_levels(self, jcal_vec3_norm(self->mean1), jcal_vec3_norm(self->mean2), dt_s);
-    if (point != NULL) {
-        add_sides(self, sample, &point->place);
+    const float length1 = jcal_vec3_norm(self->mean1);
+    const float length2 = jcal_vec3_norm(self->mean2);
+    add_levels(self, length1, length2, dt_s);
+    if ((length1 > FORCE_MIN) && (length2 > FORCE_MIN)) {
+        add_sides(self, sample, place, jcal_vec3_scale(self->mean1, 1.0f / length1),
+                  jcal_vec3_scale(self->mean2, 1.0f / length2));
     }
 }
 

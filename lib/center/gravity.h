@@ -20,10 +20,10 @@
 #include "jointcal/private/center/gravity.h"
 #include "jointcal/status.h"
 
-/// Takes in a sample. `point` may be null while there is no estimate. Frames that turn with the sensors (no smoothing, no orientations)
+/// Takes in a sample; `place` is the estimate. Frames that turn with the sensors (no smoothing, no orientations)
 /// have no mean; with `is_turning` the mean length of the forces themselves stands in.
 void jcal_center_gravity_add(jcal_center_gravity_t *self, const jcal_kinematic_t *sample,
-                             const jcal_center_point_t *point, bool is_turning);
+                             const jcal_center_place_t *place, bool is_turning);
 
 /// The joint is another one, or sits elsewhere: what hangs on its place is forgotten.
 void jcal_center_gravity_forget(jcal_center_gravity_t *self);

@@ -149,8 +149,6 @@ static void take_in(jcal_center_t *self, const jcal_kinematic_t *sample)
     const float rate2 = sample->body2.rate2;
     const float motion_s = sample->dt_s * jcal_watch_motion(rate1 + rate2);
     self->t_us = sample->t_us;
-    jcal_center_gravity_add(&self->work.gravity, sample, self->has_point ? &self->work.sums.point : NULL,
-                            jcal_center_input_turns(&self->cfg));
     if (!self->has_point && !self->has_start) {
         add_moments(self, sample);
         self->moving_s += motion_s;
@@ -161,6 +159,8 @@ static void take_in(jcal_center_t *self, const jcal_kinematic_t *sample)
     }
     if (self->has_point) {
         add_residual(self, sample, motion_s);
+        jcal_center_gravity_add(&self->work.gravity, sample, &self->work.sums.point.place,
+                                jcal_center_input_turns(&self->cfg));
     } else if (self->has_start) {
         jcal_center_add_heading(sample, &self->start, &self->heading);
         self->heading_s += sample->dt_s;

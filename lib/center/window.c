@@ -224,7 +224,7 @@ jcal_status_t jcal_center_window_step(jcal_center_window_t *self)
     self->count += (self->count < self->cfg.n_max) ? 1u : 0u;
     self->unjudged += 1u;
     self->t_us = sample.t_us;
-    jcal_center_gravity_add(&self->work.gravity, &sample, self->has_point ? &self->work.sums.point : NULL,
+    jcal_center_gravity_add(&self->work.gravity, &sample, &self->work.sums.point.place,
                             jcal_center_input_turns(&self->cfg.center));
     if (self->count >= FIRST_STEP) {
         iterate(self, sample.dt_s * jcal_watch_motion(sample.body1.rate2 + sample.body2.rate2));
