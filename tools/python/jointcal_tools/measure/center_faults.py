@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import native
 from .. import native_center as center
+from .. import native_two_axes as ball
 from ..recordings import Recording
 from ..simulate import ACC_STD_M_S2, GYR_STD_RAD_S
 from ..simulate_two_dof import TwoDofRecording, TwoDofSpec, simulate_two_dof
@@ -28,6 +29,10 @@ COVERAGE = 0.95
 
 CENTER, NEVER = "centre", "never"  # what a row is: a centre that must be right, or nothing that may be ready
 
+CLIPPED_KNOWN = "clipping that a calibration hid leaves rates that fit each other for a while; health.h names it"
+SCALE_KNOWN = ("an error of scale moves the place and leaves little behind; the bound of jcal_center_t holds as much of it as rate_mismatch says, that of "
+               "jcal_ball_t none by name, and health.h names scales that are far off")
+
 
 @dataclass(frozen=True)
 class Row:
@@ -38,8 +43,8 @@ class Row:
     late_s: float = 0.0
     rate_hz: float = RATE_HZ
     readings: Read | None = None
-    settings: dict[str, float] = field(default_factory=dict)  # of the library
-    covered: bool = True  # the bound is made for it
+    settings: dict[str, float] = field(default_factory=dict)  # of jcal_center_t
+    known: str = ""  # why what is asked for is not reached
 
 
 def both_accelerometers(times: float) -> Read:
@@ -64,24 +69,35 @@ ROWS: dict[str, Row] = {
     "both accelerometers x 2": Row(NEVER, readings=both_accelerometers(2.0)),
     "both accelerometers x 0.5": Row(NEVER, readings=both_accelerometers(0.5)),
     "one accelerometer x 1.05": Row(CENTER, readings=one_accelerometer(1.05)),
-    **{f"scale {100 * share:g} %": Row(CENTER, readings=scaled(share)) for share in (0.02, 0.05, 0.10)},
+    **{f"scale {100 * share:g} %": Row(CENTER, readings=scaled(share), known=SCALE_KNOWN) for share in (0.02, 0.05, 0.10)},
+    "no fault, rate_mismatch 0.01": Row(CENTER, settings={"rate_mismatch": 0.01}),
+    "scale 2 %, rate_mismatch 0.01": Row(CENTER, readings=scaled(0.02), settings={"rate_mismatch": 0.01}),
+    "scale 5 %, rate_mismatch 0.02": Row(CENTER, readings=scaled(0.05), settings={"rate_mismatch": 0.02}, known=SCALE_KNOWN),
     **{f"late by {ms} ms": Row(CENTER, late_s=1e-3 * ms) for ms in (5, 20, 100)},
     "vibrates at 33 Hz": Row(CENTER, vibrate(33.0, 0.3)),
-    "clipped at 0.4 of the peak, then calibrated": Row(CENTER, readings=clipped_early),
+    "clipped at 0.4 of the peak, then calibrated": Row(CENTER, readings=clipped_early, known=CLIPPED_KNOWN),
     "accelerometer 1 negated": Row(CENTER, readings=negated("acc1", (0, 1, 2))),
     "rate 80 read as 100": Row(CENTER, rate_hz=80.0, readings=timed_as_of(80.0, 100.0)),
 }
 
 
 @dataclass
-class Outcome:
-    kind: str
+class Said:
+    """What a model said of one run."""
+
     first_s: float
     errors: np.ndarray  # (2,) mm, at the first ready
     bounds: np.ndarray
     worst_mm: float  # largest error while ready
     false: bool
     reason: str
+
+
+@dataclass
+class Outcome:
+    kind: str
+    center: Said  # jcal_center_t
+    ball: Said | None  # jcal_ball_t, where it is asked
 
 
 def make(kind: str, index: int) -> tuple[Recording, TwoDofRecording]:
@@ -101,38 +117,53 @@ def make(kind: str, index: int) -> tuple[Recording, TwoDofRecording]:
     return (row.readings(rec, rng) if row.readings else rec), truth
 
 
+def said(row: Row, t_s: np.ndarray, ready: np.ndarray, errors: np.ndarray, bounds: np.ndarray, reason: str) -> Said:
+    """`ready`, errors and bounds (N, 2) of each vector, mm; ready of a whole is that of both."""
+    wrong = ready & (errors > WRONG_MM) & (errors > bounds)
+    both = ready.all(axis=1)
+    at = int(both.argmax()) if both.any() else -1
+    return Said(float(t_s[at]) if both.any() else np.inf, errors[at], bounds[at], float(errors[ready].max()) if ready.any() else float("nan"),
+                bool(ready.any() if row.rule == NEVER else wrong.any()), reason)
+
+
 def measure_run(job: tuple[str, int]) -> Outcome:
     kind, row = job[0], ROWS[job[0]]
     rec, truth = make(*job)
     track = center.run(rec, **row.settings)
-    errors, bounds, ready = errors_mm(track, truth), 1e3 * track.bounds_m, track.ready
-    wrong = ready & ((errors > WRONG_MM) & (errors > bounds)).any(axis=1)
-    first = track.first_ready()
-    at = -1 if first is None else first
-    return Outcome(kind, np.inf if first is None else float(track.t_s[first]), errors[at], bounds[at],
-                   float(errors[ready].max()) if ready.any() else float("nan"),
-                   bool(ready.any() if row.rule == NEVER else wrong.any()), native.reason_name(track.reason[-1]))
+    center_said = said(row, track.t_s, np.repeat(track.ready[:, None], 2, axis=1), errors_mm(track, truth), 1e3 * track.bounds_m,
+                       native.reason_name(track.reason[-1]))
+    if row.settings:
+        return Outcome(kind, center_said, None)
+    people = ball.run(rec)
+    return Outcome(kind, center_said, said(row, people.t_s, people.for_center, errors_mm(people, truth), 1e3 * people.lever_bounds_m,
+                                           native.reason_name(people.reason[-1])))
+
+
+def report_model(report: Report, name: str, kinds: dict[str, list[Said]]) -> None:
+    rows = []
+    for kind, mine in kinds.items():
+        row, ready = ROWS[kind], [one for one in mine if np.isfinite(one.first_s)]
+        false, covered = sum(one.false for one in mine), sum(bool((one.errors <= one.bounds).all()) for one in ready)
+        reasons = ", ".join(f"{word} {count}" for word, count in Counter(one.reason for one in mine).most_common(3))
+        is_covered = row.rule == CENTER and bool(ready)
+        rows.append([kind, row.rule, len(mine), len(ready), false, percent(covered, len(ready)) if is_covered else "-",
+                     number(median([one.first_s for one in ready]), 1), number(median([one.errors.max() for one in ready]), 1),
+                     number(median([one.bounds.max() for one in ready]), 1), number(max((one.worst_mm for one in mine if np.isfinite(one.worst_mm)), default=float("nan")), 1), reasons])
+        report.require(f"{name}, {kind}: false", f"{false} of {len(mine)}", false == 0, row.known)
+        if is_covered:
+            report.require(f"{name}, {kind}, first ready: both within their bounds, at least {100 * COVERAGE:g} %",
+                           f"{percent(covered, len(ready))} of {len(ready)}", report.quick or covered >= COVERAGE * len(ready), row.known)
+    report.text(f"## {name}")
+    report.table(["fault", "rule", "runs", "ready", "false", "covered when first ready", "ready after, s, median", "error, mm", "bound, mm",
+                  "worst error while ready, mm", "at the end"], rows)
 
 
 def measure(settings: Settings, report: Report) -> None:
     jobs = numbered({kind: settings.count(RUNS, QUICK_RUNS) for kind in ROWS}, settings.only)
     outcomes = run_jobs(measure_run, jobs, "center_faults", settings)
-    rows = []
-    for kind, row in ROWS.items():
-        mine = [o for o in outcomes if o.kind == kind]
-        ready = [o for o in mine if np.isfinite(o.first_s)]
-        if not mine:
-            continue
-        false, covered = sum(o.false for o in mine), sum(bool((o.errors <= o.bounds).all()) for o in ready)
-        reasons = ", ".join(f"{word} {count}" for word, count in Counter(o.reason for o in mine).most_common(3))
-        rows.append([kind, row.rule, len(mine), len(ready), false, percent(covered, len(ready)) if row.rule == CENTER and ready else "-",
-                     number(median([o.first_s for o in ready]), 1), number(median([o.errors.max() for o in ready]), 1),
-                     number(median([o.bounds.max() for o in ready]), 1), number(max((o.worst_mm for o in ready), default=float("nan")), 1), reasons])
-        report.require_none(f"{kind}: false", false, len(mine))
-        if row.rule == CENTER and row.covered and ready:
-            report.require_share(f"{kind}: both centres within their bounds when first ready", covered, len(ready), COVERAGE)
-    report.text(f"Simulated joints, {LENGTH_S:g} s each at {RATE_HZ:g} Hz, motions {', '.join(MOTIONS)}, 1.5 to 2.5 rad/s rms, levers of 5 to 30 cm, as jcal_center_t "
-                f"(SS) sees them. The fault is that of sensor 2 where none is named. False: ready at any time with a centre that is off by more than its bound and by more "
-                f"than {WRONG_MM:g} mm; of rows with the rule `{NEVER}` ready at all. Covered, error and bound (the larger of both, median): when it is first ready.")
-    report.table(["fault", "rule", "runs", "ready", "false", "covered when first ready", "ready after, s, median", "error, mm", "bound, mm",
-                  "worst error while ready, mm", "at the end"], rows)
+    report.text(f"Simulated joints on rigid segments, {LENGTH_S:g} s each at {RATE_HZ:g} Hz, motions {', '.join(MOTIONS)}, 1.5 to 2.5 rad/s rms, levers of 5 to 30 cm. The "
+                f"fault is that of sensor 2 where none is named. False: ready at any time with a vector that is off by more than its bound and by more than {WRONG_MM:g} mm; "
+                f"of rows with the rule `{NEVER}` ready at all. Covered, error and bound (the larger of both, median): when both are first ready.")
+    kinds = list(dict.fromkeys(o.kind for o in outcomes))
+    report_model(report, "jcal_center_t", {kind: [o.center for o in outcomes if o.kind == kind] for kind in kinds})
+    report_model(report, "jcal_ball_t, levers", {kind: [o.ball for o in outcomes if o.kind == kind] for kind in kinds if not ROWS[kind].settings})
