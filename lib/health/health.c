@@ -86,7 +86,7 @@ jcal_status_t jcal_health_push(jcal_health_t *self, const jcal_reading_t *readin
     }
     const uint64_t dt_us = is_first ? 0u : (t_us - self->pace.last_us);
     self->pace.last_us = t_us;
-    jcal_health_rails_add(self->rails, imu);
+    jcal_health_rails_add(&self->rails, imu);
     if (!is_first) {
         jcal_health_pace_add(&self->pace, dt_us);
     }
@@ -95,8 +95,8 @@ jcal_status_t jcal_health_push(jcal_health_t *self, const jcal_reading_t *readin
         return JCAL_OK;
     }
     const float dt_s = 1e-6f * (float)(uint32_t)dt_us;
+    jcal_health_motion_add(&self->motion, self->values.last.gyr_rad_s, imu, dt_s);
     jcal_health_values_add(&self->values, imu, (uint32_t)dt_us);
-    jcal_health_motion_add(&self->motion, imu, dt_s);
     if (jcal_health_block_add(&self->block, imu, dt_s, jcal_health_scale_taken(&self->scale))) {
         end_block(self);
     } else {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Tests of jointcal/health.h: each finding on a made-up sensor, nothing on a good one, and what is unknown before motion.
+#include "health/frames.h"
 #include "unit/health/fixture.h"
 
 static jcal_health_t health;
@@ -44,7 +45,7 @@ static void a_good_sensor_has_nothing(void)
     TEST_ASSERT_TRUE(said.scale_bound < 0.025f);
     /* Rounding to 1/32 of gravity, carried on, leaves a part's mean right to 0.3 % or so: 1e-5 of its square a component. */
     TEST_ASSERT_TRUE(health.frames.trials > 0u);
-    TEST_ASSERT_TRUE(health.frames.score[0] < 1e-4f * (float)health.frames.trials);
+    TEST_ASSERT_TRUE(jcal_health_frames_score(&health.frames, 0u) < 1e-4f * (float)health.frames.trials);
 }
 
 static void nothing_is_known_at_first(void)
