@@ -25,9 +25,14 @@
 #define TRIALS_FIRST 4u
 /// Sums halve at so many windows, and at so many in which all ways were tried.
 #define WINDOWS_MOST 60000u
-#define TRIALS_MOST 64u
+#define TRIALS_MOST 500u
 /// Turns of half a block beyond which a way is not followed, rad.
 #define TURN_MAX_RAD 100.0f
+
+/// How scores are kept: the bits of 2^-20, those that are left out, and half a unit.
+#define SCORE_BASE 0x35800000u
+#define SCORE_SHIFT 12u
+#define SCORE_HALF 0x800u
 
 #define PART_BLOCKS (JCAL_HEALTH_BLOCKS / JCAL_HEALTH_PARTS)
 
@@ -110,7 +115,8 @@ void jcal_health_frames_add(jcal_health_frames_t *self, const jcal_health_block_
         coarsen(self);
     }
     self->of.filling.turn_rest = write(self->turn[self->filled], turn, power_of_two(self->exponent));
-    self->of.filling.acc_rest = write(self->acc[self->filled], jcal_vec3_add(acc, self->of.filling.acc_rest), self->unit);
+    self->of.filling.acc_rest =
+        write(self->acc[self->filled], jcal_vec3_add(acc, self->of.filling.acc_rest), self->unit);
     self->filled = (uint8_t)(self->filled + 1u);
 }
 
@@ -174,20 +180,23 @@ static float open_of(const jcal_health_frames_t *self)
     return (squares > FLT_MIN) ? (jcal_max(left, 0.0f) / squares) : 0.0f;
 }
 
+/* A score is kept as 5 bits of exponent and 11 of fraction, which are those of the float less 2^-20: right to 1/4096 from there to 2^12,
+ * in the order of the floats, and 0 below. */
+
 float jcal_health_frames_score(const jcal_health_frames_t *self, unsigned way)
 {
-    const uint32_t bits = (uint32_t)self->score[way] << 16;
+    const uint32_t kept = self->score[way];
+    const uint32_t bits = (kept > 0u) ? ((kept << SCORE_SHIFT) + SCORE_BASE) : 0u;
     float score = 0.0f;
     (void)memcpy(&score, &bits, sizeof score);
     return score;
 }
 
-/// The upper half of the float's bits, rounded: a sum of up to TRIALS_MOST parts loses nothing that matters.
 static void set_score(jcal_health_frames_t *self, unsigned way, float score)
 {
     uint32_t bits = 0u;
     (void)memcpy(&bits, &score, sizeof bits);
-    self->score[way] = (uint16_t)((bits + 0x8000u) >> 16);
+    self->score[way] = (uint16_t)((bits > SCORE_BASE) ? ((bits - SCORE_BASE + SCORE_HALF) >> SCORE_SHIFT) : 0u);
 }
 
 static void add_score(jcal_health_frames_t *self, unsigned way, float open)
@@ -253,7 +262,7 @@ void jcal_health_frames_step(jcal_health_frames_t *self)
 
 unsigned jcal_health_frames_best(const jcal_health_frames_t *self, float *next)
 {
-    /* Upper halves of floats that are not negative are in the order of the floats. */
+    /* what is kept is in the order of the floats */
     const uint16_t *const score = self->score;
     unsigned best = 0u;
     unsigned second = 1u;

@@ -30,17 +30,42 @@
 #define REST_SCATTER_ACC 0.02f
 #define REST_MOST_S 60.0f
 
+/// The stretch goes into the mean squares.
+static void add_total(jcal_health_motion_t *self)
+{
+    if (!(self->readings > 0.0f)) {
+        return;
+    }
+    const float each = 1.0f / self->readings;
+    const float fast = self->count - ENOUGH;
+    self->total = jcal_min(self->total + self->readings, READINGS_MOST);
+    const float share = self->readings / self->total;
+    self->rate2 += ((each * self->sum_rate2) - self->rate2) * share;
+    self->acc2 += ((each * self->sum_acc2) - self->acc2) * share;
+    if (fast > 0.0f) {
+        self->fast2 += ((self->sum2 / fast) - self->fast2) * share;
+    }
+}
+
+static void begin_stretch(jcal_health_motion_t *self, float count)
+{
+    self->sum_rate2 = 0.0f;
+    self->sum_acc2 = 0.0f;
+    self->sum2 = 0.0f;
+    self->readings = 0.0f;
+    self->count = count;
+    self->length_s = 0.0f;
+}
+
 void jcal_health_motion_break(jcal_health_motion_t *self)
 {
-    self->sum2 = 0.0f;
-    self->count = 0.0f;
-    self->length_s = 0.0f;
+    add_total(self);
+    begin_stretch(self, 0.0f);
 }
 
 static void end_stretch(jcal_health_motion_t *self)
 {
-    const float rms =
-        jcal_max(sqrtf(self->sum2 / jcal_max(self->count - ENOUGH, 1.0f)), QUIET_LEAST);
+    const float rms = jcal_max(sqrtf(self->sum2 / jcal_max(self->count - ENOUGH, 1.0f)), QUIET_LEAST);
     const bool is_early = self->stretches < STRETCHES_FIRST;
     if (!(self->stretches > 0.0f)) {
         self->quiet_rad_s = rms;
@@ -50,40 +75,31 @@ static void end_stretch(jcal_health_motion_t *self)
         self->quiet_rad_s = jcal_max(rms, self->quiet_rad_s * (is_early ? STEP_DOWN_FIRST : STEP_DOWN));
     }
     self->stretches = jcal_min(self->stretches + 1.0f, READINGS_MOST);
-    jcal_health_motion_break(self);
-    self->count = ENOUGH; /* the last rates are there */
+    add_total(self);
+    begin_stretch(self, ENOUGH); /* the last rates are there */
 }
 
-static void add_total(jcal_health_motion_t *self, float rate2, float acc2, float fast2)
-{
-    self->total = jcal_min(self->total + 1.0f, READINGS_MOST);
-    const float share = 1.0f / self->total;
-    self->rate2 += (rate2 - self->rate2) * share;
-    self->acc2 += (acc2 - self->acc2) * share;
-    self->fast2 += (fast2 - self->fast2) * share;
-}
-
-/// The fourth difference over 16, of the rates before the last one, that, and this one.
+/// The fourth difference of the rates before the last one, that, and this one.
 static jcal_vec3_t fourth_difference(const jcal_vec3_t before[JCAL_HEALTH_BEFORE], jcal_vec3_t last, jcal_vec3_t now)
 {
     const jcal_vec3_t ends = jcal_vec3_add(before[0], now);
     const jcal_vec3_t sides = jcal_vec3_scale(jcal_vec3_add(before[1], last), 4.0f);
-    const jcal_vec3_t sum = jcal_vec3_add(jcal_vec3_sub(ends, sides), jcal_vec3_scale(before[2], 6.0f));
-    return jcal_vec3_scale(sum, 1.0f / 16.0f);
+    return jcal_vec3_add(jcal_vec3_sub(ends, sides), jcal_vec3_scale(before[2], 6.0f));
 }
 
-void jcal_health_motion_add(jcal_health_motion_t *self, jcal_vec3_t last, const jcal_imu_t *imu, float dt_s)
+void jcal_health_motion_add(jcal_health_motion_t *self, jcal_vec3_t last, jcal_vec3_t w,
+                            const jcal_health_squares_t *squares, float dt_s)
 {
-    const jcal_vec3_t w = imu->gyr_rad_s;
-    const float rate2 = jcal_vec3_dot(w, w);
-    const jcal_vec3_t fast = fourth_difference(self->before, last, w);
-    const bool is_full = self->count >= ENOUGH;
-    const float fast2 = is_full ? jcal_vec3_dot(fast, fast) : self->fast2;
-    add_total(self, rate2, jcal_vec3_dot(imu->acc_m_s2, imu->acc_m_s2), fast2);
-    if (rate2 > (MOVING_RAD_S * MOVING_RAD_S)) {
+    if (self->count >= ENOUGH) {
+        const jcal_vec3_t fast = fourth_difference(self->before, last, w);
+        self->sum2 += (1.0f / 256.0f) * jcal_vec3_dot(fast, fast);
+    }
+    if (squares->rate2 > (MOVING_RAD_S * MOVING_RAD_S)) {
         self->motion_s += dt_s;
     }
-    self->sum2 += is_full ? fast2 : 0.0f;
+    self->sum_rate2 += squares->rate2;
+    self->sum_acc2 += squares->acc2;
+    self->readings += 1.0f;
     self->count += 1.0f;
     self->length_s += dt_s;
     for (unsigned k = 1u; k < JCAL_HEALTH_BEFORE; ++k) {

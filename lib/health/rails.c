@@ -131,16 +131,22 @@ static void add_component(jcal_health_rails_t *self, unsigned k, float value, fl
     }
 }
 
+/// Most components are below their floors most of the time.
+static inline void look_at(jcal_health_rails_t *self, unsigned k, float value, float least)
+{
+    if ((fabsf(value) >= least) || (((self->is_out >> k) & 1u) != 0u)) {
+        add_component(self, k, value, least);
+    }
+}
+
 void jcal_health_rails_add(jcal_health_rails_t *self, const jcal_imu_t *imu)
 {
-    const float values[6] = {imu->gyr_rad_s.x, imu->gyr_rad_s.y, imu->gyr_rad_s.z,
-                             imu->acc_m_s2.x,  imu->acc_m_s2.y,  imu->acc_m_s2.z};
-    for (unsigned k = 0u; k < 6u; ++k) {
-        const float least = (k < 3u) ? GYR_FLOOR : ACC_FLOOR;
-        if ((fabsf(values[k]) >= least) || (((self->is_out >> k) & 1u) != 0u)) {
-            add_component(self, k, values[k], least);
-        }
-    }
+    look_at(self, 0u, imu->gyr_rad_s.x, GYR_FLOOR);
+    look_at(self, 1u, imu->gyr_rad_s.y, GYR_FLOOR);
+    look_at(self, 2u, imu->gyr_rad_s.z, GYR_FLOOR);
+    look_at(self, 3u, imu->acc_m_s2.x, ACC_FLOOR);
+    look_at(self, 4u, imu->acc_m_s2.y, ACC_FLOOR);
+    look_at(self, 5u, imu->acc_m_s2.z, ACC_FLOOR);
 }
 
 bool jcal_health_rail_clips(const jcal_health_rail_t *rail)

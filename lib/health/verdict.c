@@ -157,8 +157,8 @@ static void judge_frames(const jcal_health_t *self, result_t *out)
     const float mean = as_is / jcal_max((float)frames->trials, 1.0f);
     const bool is_clear = (frames->trials >= TRIALS_CLEAR) && (as_is > (OPEN_TIMES_CLEAR * least));
     const bool is_tried = (frames->trials >= TRIALS_MIN) || is_clear;
-    const bool is_deg =
-        is_tried && (out->rms_rad_s > RATE_UNIT_RAD_S) && (jcal_health_frames_score(frames, JCAL_HEALTH_DEG) < (RATE_UNIT_SHARE * as_is));
+    const bool is_deg = is_tried && (out->rms_rad_s > RATE_UNIT_RAD_S) &&
+                        (jcal_health_frames_score(frames, JCAL_HEALTH_DEG) < (RATE_UNIT_SHARE * as_is));
     const float times = as_is / jcal_max(least, OPEN_LEAST);
     const bool stands_out = (times > OPEN_TIMES_ALONE) && (next > (NEXT_TIMES_ALONE * least));
     const bool is_other = is_tried && !is_deg && (mean > OPEN_MIN) && ((times > OPEN_TIMES) || stands_out);
@@ -235,7 +235,7 @@ jcal_status_t jcal_health_get(const jcal_health_t *self, jcal_health_result_t *o
         return JCAL_ERR_ARG;
     }
     jcal_clear(out, sizeof *out);
-    out->readings = self->pace.readings + ((self->pace.last_us != 0u) ? 1u : 0u);
+    out->readings = self->pace.readings + (self->pace.has_last ? 1u : 0u);
     out->rejected = self->rejected;
     judge_times(self, out);
     judge_values(self, out);

@@ -376,6 +376,23 @@ static void wrong_calls_and_readings_are_refused(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_health_get(&zero, &said));
 }
 
+/* A time of all ones was taken for no reading at all. */
+static void the_last_time_that_there_is_counts(void)
+{
+    const jcal_reading_t reading = {UINT64_MAX, {{0.1f, 0.2f, 0.3f}, {1.0f, 2.0f, 9.0f}}};
+    jcal_reading_t next = reading;
+    jcal_health_result_t said;
+    next.t_us = 5u;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_health_push(&health, &reading));
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_health_push(&health, &reading));
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_health_push(&health, &next)); /* set back, and believed from now on */
+    next.t_us = 10005u;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_health_push(&health, &next));
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_health_get(&health, &said));
+    TEST_ASSERT_EQUAL_UINT32(2u, said.readings);
+    TEST_ASSERT_EQUAL_UINT32(2u, said.rejected);
+}
+
 static void every_finding_has_a_word_of_its_own(void)
 {
     for (unsigned k = 0u; k < (unsigned)JCAL_FINDING_COUNT; ++k) {
@@ -414,6 +431,7 @@ int main(void)
     RUN_TEST(round_peaks_at_one_value_are_not_clipped);
     RUN_TEST(times_are_told);
     RUN_TEST(wrong_calls_and_readings_are_refused);
+    RUN_TEST(the_last_time_that_there_is_counts);
     RUN_TEST(every_finding_has_a_word_of_its_own);
     return UNITY_END();
 }

@@ -28,6 +28,11 @@ typedef struct {
     int8_t sign[3];
 } jcal_health_way_t;
 
+/// Squared lengths of a reading's rate and specific force.
+typedef struct {
+    float rate2, acc2;
+} jcal_health_squares_t;
+
 /// The block that is being read.
 typedef struct {
     jcal_vec3_t turn;      ///< Sum of w dt, as it stands.
@@ -81,7 +86,7 @@ typedef struct {
             float as_is;      ///< What rates as they stand leave open.
         } working;
     } of;                              ///< A window that is being filled, then worked at.
-    uint16_t score[JCAL_HEALTH_WAYS];  ///< Sum over windows of what a way leaves open: upper half of a float.
+    uint16_t score[JCAL_HEALTH_WAYS];  ///< Sum over windows of what a way leaves open: jcal_health_frames_score.
     uint16_t trials;                   ///< Windows in which all ways were tried ...
     uint16_t fits;                     ///< ... and others that rates as they stand fit.
 } jcal_health_frames_t;
@@ -133,13 +138,15 @@ typedef struct {
     float longest_s;
     uint32_t readings, lost;
     uint16_t gaps;
+    bool has_last;  ///< There was a reading.
 } jcal_health_pace_t;
 
 /// Rates that change from reading to reading.
 typedef struct {
     jcal_vec3_t before[JCAL_HEALTH_BEFORE];  ///< The rates before the last one.
-    float sum2, count, length_s;             ///< Of the stretch of a tenth of a second.
-    float quiet_rad_s;  ///< Root mean square of what is fast, in the quietest tenth of the stretches.
+    float sum2, count, length_s;  ///< Of the stretch of a tenth of a second: what is fast; its readings and four ...
+    float sum_rate2, sum_acc2, readings;  ///< ... rates, specific forces and readings.
+    float quiet_rad_s;                    ///< Root mean square of what is fast, in the quietest tenth of the stretches.
     float stretches;
     float rate2, acc2;  ///< Mean squares of the rate and of the specific force ...
     float fast2;        ///< ... and of what is fast in the rate.
