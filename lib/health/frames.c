@@ -111,11 +111,10 @@ void jcal_health_frames_add(jcal_health_frames_t *self, const jcal_health_block_
     }
     const jcal_vec3_t turn = jcal_vec3_add(block->turn, self->of.filling.turn_rest);
     const float largest = jcal_max(fabsf(turn.x), jcal_max(fabsf(turn.y), fabsf(turn.z)));
-    for (int k = EXPONENT_FIRST; (k < EXPONENT_MOST) && (largest > (INT8_MOST * power_of_two(self->exponent))); ++k) {
-        if (self->exponent >= EXPONENT_MOST) {
-            break;
-        }
+    bool fits = largest <= (INT8_MOST * power_of_two(self->exponent));
+    for (int k = EXPONENT_FIRST; (k < EXPONENT_MOST) && (self->exponent < EXPONENT_MOST) && !fits; ++k) {
         coarsen(self);
+        fits = largest <= (INT8_MOST * power_of_two(self->exponent));
     }
     self->of.filling.turn_rest = write(self->turn[self->filled], turn, power_of_two(self->exponent));
     self->of.filling.acc_rest =

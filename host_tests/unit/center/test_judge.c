@@ -397,10 +397,14 @@ static void no_gravity_is_no_ready_and_says_so(void)
     }
 }
 
-/* sqrt(radius^2 + shift^2) and 2 mm, where the place is told at rest by nothing but the scale of the rates. */
+/* 2 mm and sqrt(radius^2 + hidden^2 + shift^2), of which only the radius is there at a place of zero. */
 static void errors_of_scale_are_in_the_bound_of_their_sensor(void)
 {
     work.sums = double_sums(1, 0.5, 1.0);
+    jcal_sym_scale(work.sums.matrix, JCAL_CENTER_UNKNOWNS, 1e4f); /* what is known well, so that scale is what is left */
+    const jcal_vec3_t none = {0.0f, 0.0f, 0.0f};
+    work.sums.point.place.r1 = none; /* nothing to be scaled, and nothing that hides */
+    work.sums.point.place.r2 = none;
     judge_to_bounds();
     const double before = (double)work.as.inverse.bounds[1].all - 0.002;
     const double other = (double)work.as.inverse.bounds[0].all;
@@ -409,6 +413,7 @@ static void errors_of_scale_are_in_the_bound_of_their_sensor(void)
     judge_to_bounds();
     const double hidden = (double)work.as.inverse.hidden_m;
     const double expected = 0.002 + sqrt(before * before + hidden * hidden + 0.01 * 0.01);
+    TEST_ASSERT_TRUE(before < 0.02);
     TEST_ASSERT_TRUE(is_near(expected, (double)work.as.inverse.bounds[1].all, 1e-3 * expected));
     const double alone = 0.002 + sqrt((other - 0.002) * (other - 0.002) + hidden * hidden);
     TEST_ASSERT_TRUE(is_near(alone, (double)work.as.inverse.bounds[0].all, 1e-3 * alone));
