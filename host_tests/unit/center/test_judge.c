@@ -401,7 +401,8 @@ static void no_gravity_is_no_ready_and_says_so(void)
 static void errors_of_scale_are_in_the_bound_of_their_sensor(void)
 {
     work.sums = double_sums(1, 0.5, 1.0);
-    jcal_sym_scale(work.sums.matrix, JCAL_CENTER_UNKNOWNS, 1e4f); /* what is known well, so that scale is what is left */
+    jcal_sym_scale(work.sums.matrix, JCAL_CENTER_UNKNOWNS,
+                   1e4f); /* what is known well, so that scale is what is left */
     const jcal_vec3_t none = {0.0f, 0.0f, 0.0f};
     work.sums.point.place.r1 = none; /* nothing to be scaled, and nothing that hides */
     work.sums.point.place.r2 = none;
