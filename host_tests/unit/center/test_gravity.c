@@ -248,7 +248,7 @@ static void run_stream(float size, bool turned, jcal_reason_t expected)
 {
     static jcal_center_t engine;
     center_motion_t m = center_lively(4);
-    jcal_center_result_t r;
+    jcal_center_result_t r = {0};
     m.carried = 0.08;
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_center_init(&engine, &config));
     for (uint32_t k = 0u; k < (uint32_t)(ENGINE_S * m.rate_hz); ++k) {
