@@ -25,10 +25,10 @@ ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
 TWO_DOF, CENTER, CHAIN, SENSOR = "two_dof_stream", "center_stream", "chain", "sensor"
 LEG = "leg"
 FUNCTIONAL, AUTO, TWO_AXES = "functional_hinge", "hinge_auto", "two_axes"
-PACKETS, PAIRING, LAG = "packets", "pairing", "lag"
+PACKETS, PAIRING, LAG, HEALTH = "packets", "pairing", "lag", "health"
 DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN", LEG: "REPLAY_LEG", SENSOR: "REPLAY_SENSOR",
            FUNCTIONAL: "REPLAY_FUNCTIONAL", AUTO: "REPLAY_AUTO", TWO_AXES: "REPLAY_TWO_AXES",
-           PACKETS: "REPLAY_PACKETS", PAIRING: "REPLAY_PAIRING", LAG: "REPLAY_LAG"}
+           PACKETS: "REPLAY_PACKETS", PAIRING: "REPLAY_PAIRING", LAG: "REPLAY_LAG", HEALTH: "REPLAY_HEALTH"}
 INSTANCES, RATE_HZ = 16, 100
 KNEE, ELBOW = "people_knee_long_R1", "people_elbow_B_JA_Fast"
 SLICES_PER_S, TABLED_HZ = (200, 100, 50, 25), (50, 100)
@@ -166,6 +166,19 @@ def sensor(stack: dict[str, int]) -> dict:
             f"{SENSOR}_stack_call_graph_bytes": stack.get("jcal_sensor_push", 0)}
 
 
+def health(stack: dict[str, int]) -> dict:
+    """The health of one sensor at 100 Hz: jcal_health_push."""
+    recording = target.recordings(["human_knee_left"])[0]
+    counts, worst, printed = counts_of(target.build_plugin(), HEALTH, target.readings_file(recording, RATE_HZ), ("REPLAY_STACK",))
+    if "--profile" in sys.argv:
+        for name, count in sorted(worst["update"].items(), key=lambda item: -item[1])[:LISTED]:
+            print(f"{HEALTH} {count:8d}  {name}")
+    return {f"{HEALTH}_push_instructions_max": max(counts["update"]), f"{HEALTH}_push_instructions_mean": round(statistics.mean(counts["update"])),
+            f"{HEALTH}_push_instructions_median": round(statistics.median(counts["update"])),
+            f"{HEALTH}_state_bytes": printed["state"], f"{HEALTH}_stack_painted_bytes": printed["stack"],
+            f"{HEALTH}_stack_call_graph_bytes": max(stack.get(f"jcal_health_{name}", 0) for name in ("push", "get"))}
+
+
 def wireless(engine: str, samples: Path, stack: dict[str, int], calls: tuple[str, str]) -> dict:
     """A stage between a sensor and joints at 100 Hz: each of its two calls, and both together per sample."""
     split, worst, _ = counts_of(target.build_plugin(), engine, samples, ("REPLAY_SPLIT",))
@@ -297,7 +310,7 @@ def measure(samples: Path, recording: Path) -> tuple[dict, dict]:
         numbers[f"hinge_{engine}_stack_painted_bytes"] = of["stack"]
         numbers[f"hinge_{engine}_stack_call_graph_bytes"] = stack.get(f"jcal_{prefix}_update", 0)
     numbers |= two_dof(stack) | center(stack) | chain(stack) | leg(stack) | sensor(stack) | functional(stack) | two_axes(stack)
-    numbers |= hinge_auto(stack) | wireless_stages(stack)
+    numbers |= hinge_auto(stack) | wireless_stages(stack) | health(stack)
     numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
     numbers |= sixteen(recording)
     numbers["hub_flash_bytes"] = linked_bytes("hub") - linked_bytes("hub_empty", ("HUB_EMPTY",))
@@ -331,7 +344,7 @@ def page_of(numbers: dict, code: dict) -> str:
              "`uneven`: samples up to 2 ms off, so that coefficients change with each. `functional_hinge`: a person's knee at 100 Hz, ticks and",
              "steps without the stages of its sensors; `step_instructions_mean` is of all steps for a sample. `functional_hinge_code_bytes`: what two",
              "sensors and one such hinge add to a linked image. `two_axes`: the same of a person's elbow. `hinge_auto`: jcal_hinge_auto_update on the same knee, with all it contains. `packets`: of one sensor, four raw "
-             "readings each; `pairing` and `lag`: of the same knee's two sensors, without their stages, one slice of the lag's work per sample. Sixteen hinges: in their busiest second that is "
+             "readings each; `pairing` and `lag`: of the same knee's two sensors, without their stages, one slice of the lag's work per sample. `health`: jcal_health_push, one sensor on a knee at 100 Hz. Sixteen hinges: in their busiest second that is "
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * low / 1e6:.0f} to",
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * high / 1e6:.0f} million cycles, by the estimate below, of 64 million.", "",
              "Instructions, not cycles; no board was measured. On paper, the instructions of the stream engine on this recording",
@@ -378,6 +391,7 @@ def main() -> int:
         two_axes({})
         hinge_auto({})
         wireless_stages({})
+        health({})
         return 0
     numbers, code = measure(samples, recording)
     page = page_of(numbers, code)

@@ -59,6 +59,7 @@ MEASUREMENTS = {
     "chain": "hip and knee: SAL15 simulated, ingredient by ingredient, a person's thigh",
     "sensor": "the stage of one sensor: beside VQF and optics, cold starts, bias",
     "sensor_faults": "what wireless sensors do to hinges: vibration, straps, lag, drift, scale, dead and exchanged readings",
+    "center_faults": "what faults of sensors do to the joint centre: scales, lag, vibration, clipping, signs, the rate behind the times",
     "two_files": "two files with clocks of their own beside the recording that they are split from",
     "sensor_health": "what one sensor's health says of faults, of good recordings, and of faults put into them",
     "lag_left": "simulated hinges whose sensor 2 is late by as much as the bound of a known lag allows",

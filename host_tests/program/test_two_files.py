@@ -131,6 +131,62 @@ class TwoFiles(ProgramTest):
         self.assertEqual(far["lag_s"], -100000)
         self.check_axes(far)
 
+    def checked(self, *arguments, one=ONE, two=LATE):
+        result = self.run_program("check", *self.write_two(one, two), "--json", *arguments)
+        self.assertEqual(result.stderr, b"")
+        return result.returncode, self.parse(result.stdout)[0]
+
+    def test_check_of_two_files(self):
+        status, line = self.checked()
+        self.assertEqual(list(line), ["event", "samples", "rate_hz", "out_of_order", "gravity_m_s2", "gravity_turns", "lag_s", "lag_bound_s", "drift_ppm", "sensors",
+                                      "rejected", "rejected_by", "advice"])
+        self.assertEqual((status, line["advice"]), (0, []))
+        self.assertLess(abs(line["lag_s"] - LAG_S - 1e-6 * DRIFT_PPM * SECONDS), min(line["lag_bound_s"], 0.006))
+        self.assertLess(abs(line["drift_ppm"] - DRIFT_PPM), 250.0)
+        for sensor, rate_hz in zip(line["sensors"], (100.0, 60.0), strict=True):  # of its own readings, not of the pairs
+            self.assertLess(abs(sensor["rate_hz"] - rate_hz), 0.1)
+            self.assertEqual((sensor["verdict"], sensor["findings"]), ("ok", []))
+        words = self.run_program("check", "thigh.csv", "shank.csv").stdout.decode()
+        self.assertIn("nothing is wrong as a whole", words)
+        self.assertIn("ms beside that", words)
+
+    def test_check_of_two_files_whose_lag_is_given_or_not_to_be_had(self):
+        status, line = self.checked("--lag", "0.1245")
+        self.assertEqual((status, line["lag_s"], line["lag_bound_s"], line["drift_ppm"]), (0, 0.1245, None, None))
+        other = [[row[0], *other[1:]] for row, other in zip(LATE, stamped(one_joint(SECONDS + 20, 60.0, 1))[1100:], strict=False)]
+        status, line = self.checked(two=other)
+        self.assertEqual((status, line["lag_s"], line["lag_bound_s"], line["drift_ppm"]), (3, None, None, None))
+        self.assertIn("the lag of sensor 2 was not found", line["advice"][0])
+        self.assertIn("--lag S gives the lag", line["advice"][0])
+
+    def test_check_says_what_only_one_file_shows(self):
+        holed = [row for k, row in enumerate(LATE) if k % 60 not in (20, 21, 22, 23)]
+        status, line = self.checked(two=holed)
+        one, two = line["sensors"]
+        self.assertEqual((status, one["findings"], two["findings"], two["verdict"]), (0, [], ["gaps"], "doubtful"))
+        self.assertTrue(any(sentence.startswith("shank.csv: ") and "are missing" in sentence for sentence in line["advice"]), line["advice"])
+        slow = [[*LATE[k][:1], *LATE[k - k % 3][1:]] for k in range(len(LATE))]
+        status, line = self.checked(two=slow)
+        self.assertEqual((line["sensors"][1]["findings"], line["sensors"][0]["findings"]), (["held"], []))
+        self.assertTrue(any(sentence.startswith("shank.csv: each reading of sensor 2 comes") for sentence in line["advice"]), line["advice"])
+
+    def test_check_of_one_file_tells_the_lag(self):
+        rate_hz, late = 50.0, 3
+        one, two = one_joint(SECONDS, rate_hz, 0), one_joint(SECONDS, rate_hz, 1)
+        header = ["t_s"] + [f"{kind}{i}_{axis}" for i in (1, 2) for kind in ("gyr", "acc") for axis in "xyz"]
+        for shift in (late, -late, 0):
+            rows = [[one[k][0], *one[k][1:], *two[k - shift][1:]] for k in range(late, len(one) - late)]
+            result = self.run_program("check", self.write(text(rows, header), "both.csv"), "--json")
+            line = self.parse(result.stdout)[0]
+            self.assertLess(abs(line["lag_s"] - shift / rate_hz), max(line["lag_bound_s"], 0.002))
+            self.assertEqual((result.returncode, len(line["advice"])), (3, 1) if shift else (0, 0))
+            if shift:
+                self.assertRegex(line["advice"][0], f"the readings of sensor {2 if shift > 0 else 1} come (59|6[01]) ms, (2.9|3.[01]) rows later than those of the other one"
+                                 ".*: move its columns up by that")
+                printed = self.run_program("check", "both.csv").stdout.decode()
+                self.assertIn("something is wrong", printed)
+                self.assertIn(line["advice"][0], " ".join(printed.split()))
+
     def test_standard_input_needs_the_lag(self):
         one, _ = self.write_two()
         result = self.run_program("hinge", one, "-", "--lag", "0.1245", "--json", stdin=text(LATE))
@@ -214,7 +270,7 @@ class BrokenFiles(ProgramTest):
         self.assert_usage(["hinge", "a", "--lag", "1"], "--lag goes with two files")
         for value in ("x", "", "nan", "inf", "1s"):
             self.assert_usage(["hinge", "a", "b", "--lag=" + value], "--lag: ")
-        for command in (["chain"], ["check"], ["stream", "--to", "unix:x"]):
+        for command in (["chain"], ["stream", "--to", "unix:x"]):
             self.assert_usage([*command, "a", "b"], "'b' is a second one")
 
     def test_what_is_wrong_with_a_file_is_said_of_it(self):

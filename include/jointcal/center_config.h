@@ -33,6 +33,9 @@ typedef struct {
     /// What the model leaves out (scale, timing, the place of the accelerometer in its case): the floor of every bound, m.
     /// Range [0, 0.05], default 0.002.
     float mismatch_m;
+    /// Error of the gyroscopes' scales, share. One of s moves the centre by s to 2 s times its distance from that sensor; bounds hold 2 s of it.
+    /// Range [0, 0.05], default 0.002; for a gyroscope as it comes from the factory 0.01 to 0.02, with which long levers take longer.
+    float rate_mismatch;
     /// Usual difference of the two magnitudes in slow motion, m/s^2. Range [1e-3, 10], default 0.05.
     float acc_noise_m_s2;
     /// Growth of that difference with what the turning segments add, share. Range [0, 0.5], default 0.01.

@@ -17,6 +17,7 @@ jcal_center_config_t jcal_center_config_default(void)
         .kinematics = {.derivative = JCAL_DERIVATIVE_FIVE_POINT, .smoothing_s = 0.12f},
         .max_bound_m = 0.01f,
         .mismatch_m = 0.002f,
+        .rate_mismatch = 0.002f,
         .acc_noise_m_s2 = 0.05f,
         .turn_error = 0.01f,
         .acc_bias_m_s2 = 0.3f,
@@ -34,6 +35,7 @@ const char *jcal_center_config_check(const jcal_center_config_t *config)
     const jcal_limit_t fields[] = {
         {"max_bound_m", config->max_bound_m, 0.001f, 0.1f},
         {"mismatch_m", config->mismatch_m, 0.0f, 0.05f},
+        {"rate_mismatch", config->rate_mismatch, 0.0f, 0.05f},
         {"acc_noise_m_s2", config->acc_noise_m_s2, 1e-3f, 10.0f},
         {"turn_error", config->turn_error, 0.0f, 0.5f},
         {"acc_bias_m_s2", config->acc_bias_m_s2, 0.0f, 2.0f},

@@ -20,6 +20,12 @@ bool jcal_center_input_full(const jcal_center_input_t *self);
 jcal_status_t jcal_center_input_push(jcal_center_input_t *self, const jcal_center_config_t *cfg,
                                      const jcal_pair_t *pair, const jcal_attitudes_t *attitudes);
 
+/// True if samples stand in frames that turn with the sensors: neither smoothing nor orientations.
+static inline bool jcal_center_input_turns(const jcal_center_config_t *cfg)
+{
+    return !(cfg->kinematics.smoothing_s > 0.0f) && (cfg->method != JCAL_CENTER_LS);
+}
+
 /// What became of the oldest pair in the inbox.
 typedef enum {
     JCAL_CENTER_NONE,    ///< There is none.

@@ -3,6 +3,7 @@
 /// Bounds and status of the joint centre. See center/judge.h.
 #include "center/judge.h"
 
+#include "center/gravity.h"
 #include "center/place.h"
 #include "center/sums.h"
 #include "joint/hysteresis.h"
@@ -247,6 +248,8 @@ static jcal_center_bounds_t bounds_of(const jcal_center_config_t *cfg, const jca
     const jcal_center_inverse_t *const inverse = &self->as.inverse;
     const jcal_vec3_t axis = (sensor == 0u) ? cfg->hinge_axis1 : cfg->hinge_axis2;
     const float mismatch_m = cfg->mismatch_m;
+    const float scale_m = jcal_center_gravity_shift(&self->gravity, cfg, &self->sums.point.place, sensor);
+    const float hidden_m = sqrtf((inverse->hidden_m * inverse->hidden_m) + (scale_m * scale_m));
     const bool by_scatter = radius(inverse->covariance[sensor]) > radius(inverse->least[sensor]);
     float known[6];
     float larger[6];
@@ -260,12 +263,12 @@ static jcal_center_bounds_t bounds_of(const jcal_center_config_t *cfg, const jca
         return b;
     }
     b.direction = jcal_vec3(vectors[0], vectors[1], vectors[2]);
-    b.weakest = bound(NORMAL_95 * sqrtf(jcal_max(values[0], 0.0f)), inverse->hidden_m, mismatch_m);
-    b.second = bound(NORMAL_95 * sqrtf(jcal_max(values[1], 0.0f)), inverse->hidden_m, mismatch_m);
+    b.weakest = bound(NORMAL_95 * sqrtf(jcal_max(values[0], 0.0f)), hidden_m, mismatch_m);
+    b.second = bound(NORMAL_95 * sqrtf(jcal_max(values[1], 0.0f)), hidden_m, mismatch_m);
     if (!is_along_axis(doubtful(self, sensor), axis)) {
         (void)memcpy(known, larger, sizeof known);
     }
-    b.all = bound(jcal_center_radius_across(known, axis), inverse->hidden_m, mismatch_m);
+    b.all = bound(jcal_center_radius_across(known, axis), hidden_m, mismatch_m);
     return b;
 }
 
@@ -275,13 +278,16 @@ static void name_what_is_missing(const jcal_center_config_t *cfg, jcal_center_wo
 {
     jcal_center_verdict_t *const verdict = &self->verdict;
     const jcal_center_sums_t *const sums = &self->sums;
-    const float limit = cfg->max_bound_m * ((verdict->status == (uint8_t)JCAL_READY) ? JCAL_HYSTERESIS : 1.0f);
+    const float slack = (verdict->status == (uint8_t)JCAL_READY) ? JCAL_HYSTERESIS : 1.0f;
+    const float limit = cfg->max_bound_m * slack;
     const unsigned worse = (b[1].all > b[0].all) ? 1u : 0u;
     const float still = TURN_MIN * sums->time_s;
     verdict->weak = (uint8_t)JCAL_WEAK_NONE;
-    verdict->hint = (uint8_t)JCAL_HINT_NONE;
-    verdict->reason = (uint8_t)JCAL_REASON_NONE;
-    if (b[worse].all <= limit) {
+    verdict->reason = (uint8_t)jcal_center_gravity_objects(&self->gravity, slack);
+    const bool is_grave =
+        (verdict->reason != (uint8_t)JCAL_REASON_NONE) && (verdict->reason != (uint8_t)JCAL_REASON_UNCERTAIN);
+    verdict->hint = (uint8_t)(is_grave ? JCAL_HINT_CHECK_SENSORS : JCAL_HINT_NONE);
+    if (is_grave || (b[worse].all <= limit)) {
         return;
     }
     verdict->weak = (uint8_t)((worse == 1u) ? JCAL_WEAK_CENTER2 : JCAL_WEAK_CENTER1);

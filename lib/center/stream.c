@@ -3,6 +3,7 @@
 /// Stream engine of the joint centre: samples into sums, and the schedule of the work.
 #include "jointcal/center.h"
 
+#include "center/gravity.h"
 #include "center/input.h"
 #include "center/judge.h"
 #include "center/model.h"
@@ -61,6 +62,7 @@ static void begin_anew(jcal_center_t *self, jcal_calibration_t status)
     jcal_clear(&self->work.sums, sizeof self->work.sums);
     jcal_clear(&self->watch, sizeof self->watch);
     jcal_clear(&self->heading, sizeof self->heading);
+    jcal_center_gravity_forget(&self->work.gravity);
     self->heading_s = 0.0f;
     self->moving_s = 0.0f;
     self->turn = 0u;
@@ -157,6 +159,8 @@ static void take_in(jcal_center_t *self, const jcal_kinematic_t *sample)
     }
     if (self->has_point) {
         add_residual(self, sample, motion_s);
+        jcal_center_gravity_add(&self->work.gravity, sample, &self->work.sums.point.place,
+                                jcal_center_input_turns(&self->cfg));
     } else if (self->has_start) {
         jcal_center_add_heading(sample, &self->start, &self->heading);
         self->heading_s += sample->dt_s;

@@ -3,6 +3,7 @@
 /// Window engine of the joint centre: storage, and one Gauss-Newton step over the window for each sample.
 #include "jointcal/center_window.h"
 
+#include "center/gravity.h"
 #include "center/input.h"
 #include "center/judge.h"
 #include "center/result.h"
@@ -48,7 +49,10 @@ size_t jcal_center_window_storage_bytes(const jcal_center_window_config_t *confi
 /// Forgets what was learnt of the joint.
 static void begin_anew(jcal_center_window_t *self, jcal_calibration_t status)
 {
+    const jcal_center_gravity_t gravity = self->work.gravity; /* which is the sensors', not the joint's */
     jcal_clear(&self->work, sizeof self->work);
+    self->work.gravity = gravity;
+    jcal_center_gravity_forget(&self->work.gravity);
     jcal_clear(&self->watch, sizeof self->watch);
     self->next = 0u;
     self->count = 0u;
@@ -60,6 +64,7 @@ static void begin_anew(jcal_center_window_t *self, jcal_calibration_t status)
 static void forget(jcal_center_window_t *self)
 {
     jcal_center_input_begin(&self->input);
+    jcal_clear(&self->work, sizeof self->work);
     self->t_us = 0u;
     begin_anew(self, JCAL_COLLECTING);
 }
@@ -219,6 +224,8 @@ jcal_status_t jcal_center_window_step(jcal_center_window_t *self)
     self->count += (self->count < self->cfg.n_max) ? 1u : 0u;
     self->unjudged += 1u;
     self->t_us = sample.t_us;
+    jcal_center_gravity_add(&self->work.gravity, &sample, &self->work.sums.point.place,
+                            jcal_center_input_turns(&self->cfg.center));
     if (self->count >= FIRST_STEP) {
         iterate(self, sample.dt_s * jcal_watch_motion(sample.body1.rate2 + sample.body2.rate2));
     }

@@ -12,6 +12,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /// Unit of turns, 2^-6 rad, until one does not fit; and the largest it grows to.
 #define EXPONENT_FIRST (-6)
@@ -22,10 +23,16 @@
 /// A window tells if gravity turns by so much in it, in the mean square of a share. In the first such windows all ways are tried, whatever they say.
 #define TURNS_MIN 0.02f
 #define TRIALS_FIRST 4u
-/// Sums halve at so many windows.
+/// Sums halve at so many windows, and at so many in which all ways were tried.
 #define WINDOWS_MOST 60000u
+#define TRIALS_MOST 500u
 /// Turns of half a block beyond which a way is not followed, rad.
 #define TURN_MAX_RAD 100.0f
+
+/// How scores are kept: the bits of 2^-20, those that are left out, and half a unit.
+#define SCORE_BASE 0x35800000u
+#define SCORE_SHIFT 12u
+#define SCORE_HALF 0x800u
 
 #define PART_BLOCKS (JCAL_HEALTH_BLOCKS / JCAL_HEALTH_PARTS)
 
@@ -52,8 +59,8 @@ void jcal_health_frames_break(jcal_health_frames_t *self)
     self->way = JCAL_HEALTH_AS_IS;
     self->part = 0u;
     self->exponent = EXPONENT_FIRST;
-    self->turn_rest = jcal_vec3(0.0f, 0.0f, 0.0f);
-    self->acc_rest = jcal_vec3(0.0f, 0.0f, 0.0f);
+    self->of.filling.turn_rest = jcal_vec3(0.0f, 0.0f, 0.0f);
+    self->of.filling.acc_rest = jcal_vec3(0.0f, 0.0f, 0.0f);
 }
 
 /// The nearest whole number within int8_t.
@@ -102,78 +109,112 @@ void jcal_health_frames_add(jcal_health_frames_t *self, const jcal_health_block_
         jcal_health_frames_break(self);
         self->unit = jcal_max(jcal_vec3_norm(acc), 1e-3f) / UNITS_OF_G;
     }
-    const jcal_vec3_t turn = jcal_vec3_add(block->turn, self->turn_rest);
+    const jcal_vec3_t turn = jcal_vec3_add(block->turn, self->of.filling.turn_rest);
     const float largest = jcal_max(fabsf(turn.x), jcal_max(fabsf(turn.y), fabsf(turn.z)));
-    for (int k = EXPONENT_FIRST; k < EXPONENT_MOST; ++k) {
-        if ((self->exponent < EXPONENT_MOST) && (largest > (INT8_MOST * power_of_two(self->exponent)))) {
-            coarsen(self);
-        }
+    bool fits = largest <= (INT8_MOST * power_of_two(self->exponent));
+    for (int k = EXPONENT_FIRST; (k < EXPONENT_MOST) && (self->exponent < EXPONENT_MOST) && !fits; ++k) {
+        coarsen(self);
+        fits = largest <= (INT8_MOST * power_of_two(self->exponent));
     }
-    self->turn_rest = write(self->turn[self->filled], turn, power_of_two(self->exponent));
-    self->acc_rest = write(self->acc[self->filled], jcal_vec3_add(acc, self->acc_rest), self->unit);
+    self->of.filling.turn_rest = write(self->turn[self->filled], turn, power_of_two(self->exponent));
+    self->of.filling.acc_rest =
+        write(self->acc[self->filled], jcal_vec3_add(acc, self->of.filling.acc_rest), self->unit);
     self->filled = (uint8_t)(self->filled + 1u);
 }
 
-static jcal_vec3_t read_by(const int8_t from[3], unsigned index, float unit)
+/// What makes half a turn, rad, of a block's whole numbers: one column and one factor for each component.
+typedef struct {
+    jcal_health_way_t way;
+    float times[3];
+} reader_t;
+
+static reader_t reader_of(unsigned index, float unit)
 {
-    const jcal_vec3_t v = jcal_vec3_scale(jcal_vec3((float)from[0], (float)from[1], (float)from[2]), unit);
-    if (index == JCAL_HEALTH_DEG) {
-        return jcal_vec3_scale(v, JCAL_RAD_PER_DEG);
+    reader_t out = {jcal_health_frames_way((index < JCAL_HEALTH_DEG) ? index : JCAL_HEALTH_AS_IS), {0.0f, 0.0f, 0.0f}};
+    const float size =
+        (index == JCAL_HEALTH_STILL) ? 0.0f : ((index == JCAL_HEALTH_DEG) ? (unit * JCAL_RAD_PER_DEG) : unit);
+    for (unsigned k = 0u; k < 3u; ++k) {
+        out.times[k] = (float)out.way.sign[k] * size;
     }
-    if (index == JCAL_HEALTH_STILL) {
-        return jcal_vec3(0.0f, 0.0f, 0.0f);
-    }
-    const jcal_health_way_t way = jcal_health_frames_way(index);
-    const float of[3] = {v.x, v.y, v.z};
-    return jcal_vec3((float)way.sign[0] * of[way.column[0]], (float)way.sign[1] * of[way.column[1]],
-                     (float)way.sign[2] * of[way.column[2]]);
+    return out;
+}
+
+static jcal_vec3_t read_by(const reader_t *reader, const int8_t from[3])
+{
+    const int8_t *const column = reader->way.column;
+    return jcal_vec3(reader->times[0] * (float)from[column[0]], reader->times[1] * (float)from[column[1]],
+                     reader->times[2] * (float)from[column[2]]);
 }
 
 /// Turns through one part of the window.
 static void follow(jcal_health_frames_t *self)
 {
-    const float unit = 0.5f * power_of_two(self->exponent);
+    const reader_t reader = reader_of(self->way, 0.5f * power_of_two(self->exponent));
     jcal_vec3_t sum = jcal_vec3(0.0f, 0.0f, 0.0f);
     if (self->part == 0u) {
-        self->q = jcal_quat(1.0f, 0.0f, 0.0f, 0.0f);
+        self->of.working.q = jcal_quat(1.0f, 0.0f, 0.0f, 0.0f);
+        self->of.working.all = jcal_vec3(0.0f, 0.0f, 0.0f);
+        self->of.working.squares = 0.0f;
     }
+    jcal_quat_t q = self->of.working.q;
     for (unsigned k = 0u; k < PART_BLOCKS; ++k) {
         const unsigned at = ((unsigned)self->part * PART_BLOCKS) + k;
         const int8_t *const acc = self->acc[at];
-        const jcal_vec3_t half = read_by(self->turn[at], self->way, unit);
+        const jcal_vec3_t half = read_by(&reader, self->turn[at]);
         const bool is_short = jcal_vec3_dot(half, half) < (TURN_MAX_RAD * TURN_MAX_RAD);
         const jcal_quat_t by = is_short ? jcal_turn_by(half) : jcal_quat(1.0f, 0.0f, 0.0f, 0.0f);
-        const jcal_quat_t middle = jcal_quat_mul(self->q, by);
+        const jcal_quat_t middle = jcal_quat_mul(q, by);
         const jcal_vec3_t felt = jcal_vec3((float)acc[0], (float)acc[1], (float)acc[2]);
         sum = jcal_vec3_add(sum, jcal_quat_rotate(middle, felt));
-        self->q = jcal_quat_mul(middle, by);
+        q = jcal_quat_mul(middle, by);
     }
-    self->q = jcal_quat_normalise(self->q);
-    self->mean[self->part] = sum;
+    self->of.working.q = jcal_quat_normalise(q);
+    self->of.working.all = jcal_vec3_add(self->of.working.all, sum);
+    self->of.working.squares += jcal_vec3_dot(sum, sum);
 }
 
 /// What a way leaves open in this window.
 static float open_of(const jcal_health_frames_t *self)
 {
-    jcal_vec3_t all = jcal_vec3(0.0f, 0.0f, 0.0f);
-    float squares = 0.0f;
-    for (unsigned k = 0u; k < JCAL_HEALTH_PARTS; ++k) {
-        all = jcal_vec3_add(all, self->mean[k]);
-        squares += jcal_vec3_dot(self->mean[k], self->mean[k]);
-    }
+    const jcal_vec3_t all = self->of.working.all;
+    const float squares = self->of.working.squares;
     const float left = squares - (jcal_vec3_dot(all, all) / (float)JCAL_HEALTH_PARTS);
     return (squares > FLT_MIN) ? (jcal_max(left, 0.0f) / squares) : 0.0f;
 }
 
+/* A score is kept as 5 bits of exponent and 11 of fraction, which are those of the float less 2^-20: right to 1/4096 from there to 2^12,
+ * in the order of the floats, and 0 below. */
+
+float jcal_health_frames_score(const jcal_health_frames_t *self, unsigned way)
+{
+    const uint32_t kept = self->score[way];
+    const uint32_t bits = (kept > 0u) ? ((kept << SCORE_SHIFT) + SCORE_BASE) : 0u;
+    float score = 0.0f;
+    (void)memcpy(&score, &bits, sizeof score);
+    return score;
+}
+
+static void set_score(jcal_health_frames_t *self, unsigned way, float score)
+{
+    uint32_t bits = 0u;
+    (void)memcpy(&bits, &score, sizeof bits);
+    self->score[way] = (uint16_t)((bits > SCORE_BASE) ? ((bits - SCORE_BASE + SCORE_HALF) >> SCORE_SHIFT) : 0u);
+}
+
+static void add_score(jcal_health_frames_t *self, unsigned way, float open)
+{
+    set_score(self, way, jcal_health_frames_score(self, way) + open);
+}
+
 static void halve_if_long(jcal_health_frames_t *self)
 {
-    if ((self->trials < WINDOWS_MOST) && (self->fits < WINDOWS_MOST)) {
+    if ((self->trials < TRIALS_MOST) && (self->fits < WINDOWS_MOST)) {
         return;
     }
     self->trials = (uint16_t)(self->trials / 2u);
     self->fits = (uint16_t)(self->fits / 2u);
     for (unsigned k = 0u; k < JCAL_HEALTH_WAYS; ++k) {
-        self->score[k] *= 0.5f;
+        set_score(self, k, 0.5f * jcal_health_frames_score(self, k));
     }
 }
 
@@ -182,25 +223,24 @@ static void finish_way(jcal_health_frames_t *self)
 {
     const float open = open_of(self);
     if (self->way == JCAL_HEALTH_AS_IS) {
-        self->score_now[0] = open;
+        self->of.working.as_is = open;
         self->way = JCAL_HEALTH_STILL;
         return;
     }
     if (self->way == JCAL_HEALTH_STILL) {
-        self->score_now[1] = open;
         const bool is_first = (self->trials < TRIALS_FIRST) && (open > TURNS_MIN);
-        if (!is_first && !(self->score_now[0] > JCAL_HEALTH_OPEN)) {
+        if (!is_first && !(self->of.working.as_is > JCAL_HEALTH_OPEN)) {
             self->fits = (uint16_t)(self->fits + 1u);
             halve_if_long(self);
             jcal_health_frames_break(self);
             return;
         }
-        self->score[JCAL_HEALTH_AS_IS] += self->score_now[0];
-        self->score[JCAL_HEALTH_STILL] += open;
+        add_score(self, JCAL_HEALTH_AS_IS, self->of.working.as_is);
+        add_score(self, JCAL_HEALTH_STILL, open);
         self->way = JCAL_HEALTH_AS_IS + 1u;
         return;
     }
-    self->score[self->way] += open;
+    add_score(self, self->way, open);
     self->way = (uint8_t)(self->way + 1u);
     if (self->way == JCAL_HEALTH_STILL) {
         self->trials = (uint16_t)(self->trials + 1u);
@@ -224,16 +264,20 @@ void jcal_health_frames_step(jcal_health_frames_t *self)
 
 unsigned jcal_health_frames_best(const jcal_health_frames_t *self, float *next)
 {
-    const float *const score = self->score;
+    /* what is kept is in the order of the floats */
+    const uint16_t *const score = self->score;
     unsigned best = 0u;
-    *next = score[1];
+    unsigned second = 1u;
     for (unsigned k = 1u; k < JCAL_HEALTH_DEG; ++k) {
         if (score[k] < score[best]) {
-            *next = score[best];
+            second = best;
             best = k;
+        } else if (score[k] < score[second]) {
+            second = k;
         } else {
-            *next = jcal_min(score[k], *next);
+            /* neither */
         }
     }
+    *next = jcal_health_frames_score(self, second);
     return best;
 }

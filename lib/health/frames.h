@@ -41,6 +41,9 @@ void jcal_health_frames_step(jcal_health_frames_t *self);
 /// Columns and signs of way `index` of the first 48.
 jcal_health_way_t jcal_health_frames_way(unsigned index);
 
+/// Sum over windows of what a way leaves open.
+float jcal_health_frames_score(const jcal_health_frames_t *self, unsigned way);
+
 /// The way of the 48 that leaves least, and what the next one leaves.
 unsigned jcal_health_frames_best(const jcal_health_frames_t *self, float *next);
 

@@ -10,18 +10,19 @@
 #include "health/rails.h"
 #include "health/scale.h"
 #include "health/values.h"
+#include "jointcal/vec3.h"
 #include "math/clear.h"
 #include "math/scalar.h"
 
 #include <math.h>
 #include <stddef.h>
 
-/// Largest value of a component that is taken in, in any unit.
+/// Largest rate and specific force that are taken in, in any unit.
 #define VALUE_MOST 1e6f
 /// Longest distance of readings over which rates can be summed, us.
 #define STEP_MOST_US 105000u
 
-typedef char jcal_health_fits_its_budget[(sizeof(jcal_health_t) <= 1200u) ? 1 : -1];
+typedef char jcal_health_fits_its_budget[(sizeof(jcal_health_t) <= 976u) ? 1 : -1];
 
 jcal_status_t jcal_health_init(jcal_health_t *self)
 {
@@ -34,10 +35,10 @@ jcal_status_t jcal_health_init(jcal_health_t *self)
     return JCAL_OK;
 }
 
-static bool is_bounded(jcal_vec3_t v)
+/// Not so for what is not finite.
+static bool is_bounded(const jcal_health_squares_t *squares)
 {
-    return jcal_within(v.x, -VALUE_MOST, VALUE_MOST) && jcal_within(v.y, -VALUE_MOST, VALUE_MOST) &&
-           jcal_within(v.z, -VALUE_MOST, VALUE_MOST);
+    return (squares->rate2 <= (VALUE_MOST * VALUE_MOST)) && (squares->acc2 <= (VALUE_MOST * VALUE_MOST));
 }
 
 /// What sums over time begins anew.
@@ -76,17 +77,20 @@ jcal_status_t jcal_health_push(jcal_health_t *self, const jcal_reading_t *readin
         return JCAL_ERR_ARG;
     }
     const jcal_imu_t *const imu = &reading->imu;
-    const bool is_first = self->pace.last_us == 0u;
-    const uint64_t t_us = reading->t_us + 1u; /* 0: none yet */
-    if (!is_bounded(imu->gyr_rad_s) || !is_bounded(imu->acc_m_s2) || (!is_first && (t_us <= self->pace.last_us))) {
+    const bool is_first = !self->pace.has_last;
+    const uint64_t t_us = reading->t_us;
+    const jcal_health_squares_t squares = {jcal_vec3_dot(imu->gyr_rad_s, imu->gyr_rad_s),
+                                           jcal_vec3_dot(imu->acc_m_s2, imu->acc_m_s2)};
+    if (!is_bounded(&squares) || (!is_first && (t_us <= self->pace.last_us))) {
         self->rejected += (self->rejected < UINT32_MAX) ? 1u : 0u;
         /* A clock that was set back is believed at once: nothing here hangs on times of before. */
-        self->pace.last_us = (t_us < self->pace.last_us) ? t_us : self->pace.last_us;
+        self->pace.last_us = (!is_first && (t_us < self->pace.last_us)) ? t_us : self->pace.last_us;
         return JCAL_REJECTED;
     }
     const uint64_t dt_us = is_first ? 0u : (t_us - self->pace.last_us);
     self->pace.last_us = t_us;
-    jcal_health_rails_add(self->rails, imu);
+    self->pace.has_last = true;
+    jcal_health_rails_add(&self->rails, imu);
     if (!is_first) {
         jcal_health_pace_add(&self->pace, dt_us);
     }
@@ -95,8 +99,8 @@ jcal_status_t jcal_health_push(jcal_health_t *self, const jcal_reading_t *readin
         return JCAL_OK;
     }
     const float dt_s = 1e-6f * (float)(uint32_t)dt_us;
-    jcal_health_values_add(&self->values, imu, (uint32_t)dt_us);
-    jcal_health_motion_add(&self->motion, imu, dt_s);
+    jcal_health_motion_add(&self->motion, self->values.last.gyr_rad_s, imu->gyr_rad_s, &squares, dt_s);
+    jcal_health_values_add(&self->values, imu, &squares, (uint32_t)dt_us);
     if (jcal_health_block_add(&self->block, imu, dt_s, jcal_health_scale_taken(&self->scale))) {
         end_block(self);
     } else {

@@ -10,6 +10,8 @@
 #include <math.h>
 
 #define STRETCH_S 0.099f
+/// Readings before this one that the difference needs.
+#define ENOUGH 4.0f
 /// Steps of the tenth part: up where a stretch lies above it, nine times as far down where it lies below.
 #define STEP_UP 1.02f
 #define STEP_DOWN 0.837f
@@ -28,17 +30,42 @@
 #define REST_SCATTER_ACC 0.02f
 #define REST_MOST_S 60.0f
 
+/// The stretch goes into the mean squares.
+static void add_total(jcal_health_motion_t *self)
+{
+    if (!(self->readings > 0.0f)) {
+        return;
+    }
+    const float each = 1.0f / self->readings;
+    const float fast = self->count - ENOUGH;
+    self->total = jcal_min(self->total + self->readings, READINGS_MOST);
+    const float share = self->readings / self->total;
+    self->rate2 += ((each * self->sum_rate2) - self->rate2) * share;
+    self->acc2 += ((each * self->sum_acc2) - self->acc2) * share;
+    if (fast > 0.0f) {
+        self->fast2 += ((self->sum2 / fast) - self->fast2) * share;
+    }
+}
+
+static void begin_stretch(jcal_health_motion_t *self, float count)
+{
+    self->sum_rate2 = 0.0f;
+    self->sum_acc2 = 0.0f;
+    self->sum2 = 0.0f;
+    self->readings = 0.0f;
+    self->count = count;
+    self->length_s = 0.0f;
+}
+
 void jcal_health_motion_break(jcal_health_motion_t *self)
 {
-    self->sum2 = 0.0f;
-    self->count = 0.0f;
-    self->length_s = 0.0f;
+    add_total(self);
+    begin_stretch(self, 0.0f);
 }
 
 static void end_stretch(jcal_health_motion_t *self)
 {
-    const float rms =
-        jcal_max(sqrtf(self->sum2 / jcal_max(self->count - (float)JCAL_HEALTH_BEFORE, 1.0f)), QUIET_LEAST);
+    const float rms = jcal_max(sqrtf(self->sum2 / jcal_max(self->count - ENOUGH, 1.0f)), QUIET_LEAST);
     const bool is_early = self->stretches < STRETCHES_FIRST;
     if (!(self->stretches > 0.0f)) {
         self->quiet_rad_s = rms;
@@ -48,46 +75,37 @@ static void end_stretch(jcal_health_motion_t *self)
         self->quiet_rad_s = jcal_max(rms, self->quiet_rad_s * (is_early ? STEP_DOWN_FIRST : STEP_DOWN));
     }
     self->stretches = jcal_min(self->stretches + 1.0f, READINGS_MOST);
-    jcal_health_motion_break(self);
-    self->count = (float)JCAL_HEALTH_BEFORE; /* the last rates are there */
+    add_total(self);
+    begin_stretch(self, ENOUGH); /* the last rates are there */
 }
 
-static void add_total(jcal_health_motion_t *self, float rate2, float acc2, float fast2)
-{
-    self->total = jcal_min(self->total + 1.0f, READINGS_MOST);
-    const float share = 1.0f / self->total;
-    self->rate2 += (rate2 - self->rate2) * share;
-    self->acc2 += (acc2 - self->acc2) * share;
-    self->fast2 += (fast2 - self->fast2) * share;
-}
-
-/// The fourth difference over 16, of the last rates and this one.
-static jcal_vec3_t fourth_difference(const jcal_vec3_t before[JCAL_HEALTH_BEFORE], jcal_vec3_t now)
+/// The fourth difference of the rates before the last one, that, and this one.
+static jcal_vec3_t fourth_difference(const jcal_vec3_t before[JCAL_HEALTH_BEFORE], jcal_vec3_t last, jcal_vec3_t now)
 {
     const jcal_vec3_t ends = jcal_vec3_add(before[0], now);
-    const jcal_vec3_t sides = jcal_vec3_scale(jcal_vec3_add(before[1], before[3]), 4.0f);
-    const jcal_vec3_t sum = jcal_vec3_add(jcal_vec3_sub(ends, sides), jcal_vec3_scale(before[2], 6.0f));
-    return jcal_vec3_scale(sum, 1.0f / 16.0f);
+    const jcal_vec3_t sides = jcal_vec3_scale(jcal_vec3_add(before[1], last), 4.0f);
+    return jcal_vec3_add(jcal_vec3_sub(ends, sides), jcal_vec3_scale(before[2], 6.0f));
 }
 
-void jcal_health_motion_add(jcal_health_motion_t *self, const jcal_imu_t *imu, float dt_s)
+void jcal_health_motion_add(jcal_health_motion_t *self, jcal_vec3_t last, jcal_vec3_t w,
+                            const jcal_health_squares_t *squares, float dt_s)
 {
-    const jcal_vec3_t w = imu->gyr_rad_s;
-    const float rate2 = jcal_vec3_dot(w, w);
-    const jcal_vec3_t fast = fourth_difference(self->before, w);
-    const bool is_full = self->count >= (float)JCAL_HEALTH_BEFORE;
-    const float fast2 = is_full ? jcal_vec3_dot(fast, fast) : self->fast2;
-    add_total(self, rate2, jcal_vec3_dot(imu->acc_m_s2, imu->acc_m_s2), fast2);
-    if (rate2 > (MOVING_RAD_S * MOVING_RAD_S)) {
+    if (self->count >= ENOUGH) {
+        const jcal_vec3_t fast = fourth_difference(self->before, last, w);
+        self->sum2 += (1.0f / 256.0f) * jcal_vec3_dot(fast, fast);
+    }
+    if (squares->rate2 > (MOVING_RAD_S * MOVING_RAD_S)) {
         self->motion_s += dt_s;
     }
-    self->sum2 += is_full ? fast2 : 0.0f;
+    self->sum_rate2 += squares->rate2;
+    self->sum_acc2 += squares->acc2;
+    self->readings += 1.0f;
     self->count += 1.0f;
     self->length_s += dt_s;
     for (unsigned k = 1u; k < JCAL_HEALTH_BEFORE; ++k) {
         self->before[k - 1u] = self->before[k];
     }
-    self->before[JCAL_HEALTH_BEFORE - 1] = w;
+    self->before[JCAL_HEALTH_BEFORE - 1] = last;
     if (self->length_s >= STRETCH_S) {
         end_stretch(self);
     }

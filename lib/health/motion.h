@@ -12,8 +12,9 @@
 /// The last rates are forgotten.
 void jcal_health_motion_break(jcal_health_motion_t *self);
 
-/// Takes in a reading that came dt_s after the last one. Cost: about 50 instructions.
-void jcal_health_motion_add(jcal_health_motion_t *self, const jcal_imu_t *imu, float dt_s);
+/// Takes in a reading that came dt_s after the last one, with rates w after `last`. Cost: about 80 instructions.
+void jcal_health_motion_add(jcal_health_motion_t *self, jcal_vec3_t last, jcal_vec3_t w,
+                            const jcal_health_squares_t *squares, float dt_s);
 
 /// Takes in a full block: about a second of blocks that hardly differ is rest.
 void jcal_health_rest_add(jcal_health_rest_t *self, const jcal_health_block_t *block);

@@ -5,12 +5,14 @@
 
 #include "math/scalar.h"
 
+#include <math.h>
+
 /// Units of levels: rad/s, m/s^2.
 #define GYR_UNIT (1.0f / 256.0f)
 #define ACC_UNIT (1.0f / 16.0f)
 /// No gyroscope stops below 1 rad/s, no accelerometer below 1.4 g.
-#define GYR_FLOOR 256u
-#define ACC_FLOOR 224u
+#define GYR_FLOOR 1.0f
+#define ACC_FLOOR 14.0f
 #define VALUE_MOST 65000.0f
 
 /// Shares in 1/1024: near the top, below it, and where an excursion ends.
@@ -33,24 +35,24 @@ static uint16_t part_of(uint16_t value, uint32_t share_1024)
     return (uint16_t)(((uint32_t)value * share_1024) / 1024u);
 }
 
-static bool is_flat(const jcal_health_rail_t *rail)
+static bool is_flat(const jcal_health_peak_t *peak)
 {
-    return (rail->top >= TOP_MIN) && (rail->top > (FLAT_RATIO * rail->side));
+    return (peak->top >= TOP_MIN) && (peak->top > (FLAT_RATIO * peak->side));
 }
 
 /// A flat peak moves the level to itself if it is higher; what was counted at the old one was none.
-static void count_peak(jcal_health_rail_t *rail)
+static void count_peak(jcal_health_rail_t *rail, const jcal_health_peak_t *peak)
 {
     const uint16_t slack = part_of(rail->level, SAME_1024);
-    const bool is_above = (rail->peak > slack) && ((uint16_t)(rail->peak - slack) > rail->level);
-    const bool is_at = !is_above && ((uint32_t)rail->peak + slack >= rail->level);
-    if (is_flat(rail) && is_above) {
-        rail->level = rail->peak;
+    const bool is_above = (peak->peak > slack) && ((uint16_t)(peak->peak - slack) > rail->level);
+    const bool is_at = !is_above && ((uint32_t)peak->peak + slack >= rail->level);
+    if (is_flat(peak) && is_above) {
+        rail->level = peak->peak;
         rail->hits = 1u;
         rail->against = 0u;
-    } else if (is_flat(rail) && is_at) {
+    } else if (is_flat(peak) && is_at) {
         rail->hits = (uint8_t)(rail->hits + 1u);
-    } else if (is_above != is_flat(rail)) {
+    } else if (is_above != is_flat(peak)) {
         rail->against = (uint8_t)(rail->against + 1u); /* a round peak above the level, or a flat one below it */
     } else {
         /* a round peak at the level grazed it; one below says nothing */
@@ -61,58 +63,90 @@ static void count_peak(jcal_health_rail_t *rail)
     }
 }
 
-static void go_on(jcal_health_rail_t *rail, uint16_t value)
+static void go_on(jcal_health_peak_t *peak, uint16_t value)
 {
-    if (value > rail->peak) {
-        if (part_of(value, TOP_1024) > rail->base) {
-            rail->base = value;
-            rail->side = 0u;
-            rail->top = 0u;
+    if (value > peak->peak) {
+        if (part_of(value, TOP_1024) > peak->base) {
+            peak->base = value;
+            peak->side = 0u;
+            peak->top = 0u;
         }
-        rail->peak = value;
+        peak->peak = value;
     }
-    if (value >= part_of(rail->peak, TOP_1024)) {
-        rail->top = (uint8_t)(rail->top + ((rail->top < COUNT_MOST / 2u) ? 1u : 0u));
-    } else if (value >= part_of(rail->peak, SIDE_1024)) {
-        rail->side = (uint8_t)(rail->side + ((rail->side < COUNT_MOST / 2u) ? 1u : 0u));
+    if (value >= part_of(peak->peak, TOP_1024)) {
+        peak->top = (uint8_t)(peak->top + ((peak->top < COUNT_MOST / 2u) ? 1u : 0u));
+    } else if (value >= part_of(peak->peak, SIDE_1024)) {
+        peak->side = (uint8_t)(peak->side + ((peak->side < COUNT_MOST / 2u) ? 1u : 0u));
     } else {
         /* on its way down */
     }
 }
 
-static void add_side(jcal_health_rail_t *rail, float value, uint16_t least)
+/// The value of a side in whole units, not below 0.
+static uint16_t whole_of(float value, bool is_lower, bool is_gyr)
 {
-    const uint16_t whole = (uint16_t)jcal_min(jcal_max(value, 0.0f), VALUE_MOST);
-    if (rail->peak == 0u) {
-        if (whole < least) {
-            return;
-        }
-        rail->base = 0u;
-    }
-    if (whole >= part_of(rail->peak, END_1024)) {
-        go_on(rail, whole);
-        return;
-    }
-    if (rail->peak < (uint16_t)VALUE_MOST) {
-        count_peak(rail);
-    }
-    rail->peak = 0u;
+    const float units = (is_lower ? -value : value) * (is_gyr ? (1.0f / GYR_UNIT) : (1.0f / ACC_UNIT));
+    return (uint16_t)jcal_min(jcal_max(units, 0.0f), VALUE_MOST);
 }
 
-void jcal_health_rails_add(jcal_health_rail_t rails[6][2], const jcal_imu_t *imu)
+/// Goes on with the excursion of component k; false if it has ended.
+static bool go_on_out(jcal_health_rails_t *self, unsigned k, float value)
 {
-    const float values[6] = {imu->gyr_rad_s.x * (1.0f / GYR_UNIT), imu->gyr_rad_s.y * (1.0f / GYR_UNIT),
-                             imu->gyr_rad_s.z * (1.0f / GYR_UNIT), imu->acc_m_s2.x * (1.0f / ACC_UNIT),
-                             imu->acc_m_s2.y * (1.0f / ACC_UNIT),  imu->acc_m_s2.z * (1.0f / ACC_UNIT)};
-    for (unsigned k = 0u; k < 6u; ++k) {
-        const uint16_t least = (k < 3u) ? GYR_FLOOR : ACC_FLOOR;
-        const bool is_low = (values[k] < (float)least) && (values[k] > -(float)least);
-        if (is_low && (rails[k][0].peak == 0u) && (rails[k][1].peak == 0u)) {
-            continue;
-        }
-        add_side(&rails[k][0], values[k], least);
-        add_side(&rails[k][1], -values[k], least);
+    jcal_health_peak_t *const peak = &self->peak[k];
+    const unsigned side = (self->is_lower >> k) & 1u;
+    const uint16_t whole = whole_of(value, side != 0u, k < 3u);
+    if (whole >= part_of(peak->peak, END_1024)) {
+        go_on(peak, whole);
+        return true;
     }
+    if (peak->peak < (uint16_t)VALUE_MOST) {
+        count_peak(&self->rail[k][side], peak);
+    }
+    self->is_out = (uint8_t)(self->is_out & ~(1u << k));
+    return false;
+}
+
+/// Component k goes beyond its floor.
+static void begin_out(jcal_health_rails_t *self, unsigned k, float value)
+{
+    const unsigned bit = 1u << k;
+    const bool is_lower = value < 0.0f;
+    self->is_out = (uint8_t)(self->is_out | bit);
+    self->is_lower = (uint8_t)(is_lower ? (self->is_lower | bit) : (self->is_lower & ~bit));
+    self->peak[k].peak = 0u;
+    self->peak[k].base = 0u;
+    go_on(&self->peak[k], whole_of(value, is_lower, k < 3u));
+}
+
+static void add_component(jcal_health_rails_t *self, unsigned k, float value, float least)
+{
+    const bool was_out = ((self->is_out >> k) & 1u) != 0u;
+    const bool was_lower = ((self->is_lower >> k) & 1u) != 0u;
+    if (was_out && go_on_out(self, k, value)) {
+        return;
+    }
+    /* the side that was left begins no new one with the same reading */
+    if ((fabsf(value) >= least) && !(was_out && (was_lower == (value < 0.0f)))) {
+        begin_out(self, k, value);
+    }
+}
+
+/// Most components are below their floors most of the time.
+static inline void look_at(jcal_health_rails_t *self, unsigned k, float value, float least)
+{
+    if ((fabsf(value) >= least) || (((self->is_out >> k) & 1u) != 0u)) {
+        add_component(self, k, value, least);
+    }
+}
+
+void jcal_health_rails_add(jcal_health_rails_t *self, const jcal_imu_t *imu)
+{
+    look_at(self, 0u, imu->gyr_rad_s.x, GYR_FLOOR);
+    look_at(self, 1u, imu->gyr_rad_s.y, GYR_FLOOR);
+    look_at(self, 2u, imu->gyr_rad_s.z, GYR_FLOOR);
+    look_at(self, 3u, imu->acc_m_s2.x, ACC_FLOOR);
+    look_at(self, 4u, imu->acc_m_s2.y, ACC_FLOOR);
+    look_at(self, 5u, imu->acc_m_s2.z, ACC_FLOOR);
 }
 
 bool jcal_health_rail_clips(const jcal_health_rail_t *rail)

@@ -10,8 +10,8 @@
 
 #include "jointcal/private/health/state.h"
 
-/// Takes in a reading. Cost: 12 comparisons, and some counting for each side that is beyond its floor.
-void jcal_health_rails_add(jcal_health_rail_t rails[6][2], const jcal_imu_t *imu);
+/// Takes in a reading. Cost: six comparisons, and some counting for each component that is beyond its floor.
+void jcal_health_rails_add(jcal_health_rails_t *self, const jcal_imu_t *imu);
 
 /// True if the side stops.
 bool jcal_health_rail_clips(const jcal_health_rail_t *rail);

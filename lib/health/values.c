@@ -6,6 +6,8 @@
 #include "jointcal/vec3.h"
 #include "math/scalar.h"
 
+#include <string.h>
+
 /// A reading in motion: rate, rad/s, or change of the specific force, as a share.
 #define MOVING_RAD_S 0.5f
 #define MOVING_SHARE 0.05f
@@ -19,36 +21,28 @@
 #define HELD_SHARE 0.45f
 #define TIMES_MOST 1000.0f
 
-static bool is_same(jcal_vec3_t a, jcal_vec3_t b)
+/// True if a value is not the one before, bit by bit.
+static bool differs(const float *now, const float *before)
 {
-    return !(a.x < b.x) && !(a.x > b.x) && !(a.y < b.y) && !(a.y > b.y) && !(a.z < b.z) && !(a.z > b.z);
+    uint32_t a = 0u;
+    uint32_t b = 0u;
+    (void)memcpy(&a, now, sizeof a);
+    (void)memcpy(&b, before, sizeof b);
+    return a != b;
 }
 
-static bool is_moving(const jcal_imu_t *last, const jcal_imu_t *imu)
+static bool is_moving(const jcal_imu_t *last, const jcal_imu_t *imu, const jcal_health_squares_t *squares)
 {
-    const float rate2 = jcal_vec3_dot(imu->gyr_rad_s, imu->gyr_rad_s);
     const jcal_vec3_t change = jcal_vec3_sub(imu->acc_m_s2, last->acc_m_s2);
-    const float acc2 = jcal_vec3_dot(imu->acc_m_s2, imu->acc_m_s2);
-    return (rate2 > (MOVING_RAD_S * MOVING_RAD_S)) ||
-           (jcal_vec3_dot(change, change) > (MOVING_SHARE * MOVING_SHARE * acc2));
+    return (squares->rate2 > (MOVING_RAD_S * MOVING_RAD_S)) ||
+           (jcal_vec3_dot(change, change) > (MOVING_SHARE * MOVING_SHARE * squares->acc2));
 }
 
-static void count_stuck(jcal_health_values_t *self, const jcal_imu_t *imu, bool is_counted)
+/// The component's count after this reading. `more` is 0 at rest, and with a reading that is repeated.
+static uint8_t stuck_after(uint8_t stuck, bool has_changed, unsigned more)
 {
-    const float now[6] = {imu->gyr_rad_s.x, imu->gyr_rad_s.y, imu->gyr_rad_s.z,
-                          imu->acc_m_s2.x,  imu->acc_m_s2.y,  imu->acc_m_s2.z};
-    const jcal_imu_t *const last = &self->last;
-    const float before[6] = {last->gyr_rad_s.x, last->gyr_rad_s.y, last->gyr_rad_s.z,
-                             last->acc_m_s2.x,  last->acc_m_s2.y,  last->acc_m_s2.z};
-    for (unsigned k = 0u; k < 6u; ++k) {
-        if ((now[k] < before[k]) || (now[k] > before[k])) {
-            self->stuck[k] = 0u;
-        } else if (is_counted && (self->stuck[k] < STUCK_MOST)) {
-            self->stuck[k] = (uint8_t)(self->stuck[k] + 1u);
-        } else {
-            /* at rest, or long enough */
-        }
-    }
+    const unsigned sum = stuck + more;
+    return (uint8_t)(has_changed ? 0u : ((sum < STUCK_MOST) ? sum : STUCK_MOST));
 }
 
 static void count_held(jcal_health_values_t *self, bool same_gyr, bool same_acc)
@@ -65,16 +59,30 @@ static void count_held(jcal_health_values_t *self, bool same_gyr, bool same_acc)
     }
 }
 
-void jcal_health_values_add(jcal_health_values_t *self, const jcal_imu_t *imu, uint32_t dt_us)
+void jcal_health_values_add(jcal_health_values_t *self, const jcal_imu_t *imu, const jcal_health_squares_t *squares,
+                            uint32_t dt_us)
 {
-    const bool same_gyr = is_same(imu->gyr_rad_s, self->last.gyr_rad_s);
-    const bool same_acc = is_same(imu->acc_m_s2, self->last.acc_m_s2);
+    const jcal_imu_t *const last = &self->last;
+    const bool gx = differs(&imu->gyr_rad_s.x, &last->gyr_rad_s.x);
+    const bool gy = differs(&imu->gyr_rad_s.y, &last->gyr_rad_s.y);
+    const bool gz = differs(&imu->gyr_rad_s.z, &last->gyr_rad_s.z);
+    const bool ax = differs(&imu->acc_m_s2.x, &last->acc_m_s2.x);
+    const bool ay = differs(&imu->acc_m_s2.y, &last->acc_m_s2.y);
+    const bool az = differs(&imu->acc_m_s2.z, &last->acc_m_s2.z);
+    const bool same_gyr = !gx && !gy && !gz;
+    const bool same_acc = !ax && !ay && !az;
     const bool same = same_gyr && same_acc;
-    const bool moving = is_moving(&self->last, imu);
+    const bool moving = is_moving(&self->last, imu, squares);
     const uint32_t room_us = UINT32_MAX - self->same_us;
     self->same_us = same ? (self->same_us + ((dt_us < room_us) ? dt_us : room_us)) : 0u;
     self->frozen_us = (self->same_us > self->frozen_us) ? self->same_us : self->frozen_us;
-    count_stuck(self, imu, moving && !same);
+    const unsigned more = (moving && !same) ? 1u : 0u;
+    self->stuck[0] = stuck_after(self->stuck[0], gx, more);
+    self->stuck[1] = stuck_after(self->stuck[1], gy, more);
+    self->stuck[2] = stuck_after(self->stuck[2], gz, more);
+    self->stuck[3] = stuck_after(self->stuck[3], ax, more);
+    self->stuck[4] = stuck_after(self->stuck[4], ay, more);
+    self->stuck[5] = stuck_after(self->stuck[5], az, more);
     if (moving) {
         count_held(self, same_gyr, same_acc);
     }

@@ -9,8 +9,9 @@
 
 #include "jointcal/private/health/state.h"
 
-/// Takes in a reading that came dt_us after the last one. Cost: about 60 instructions.
-void jcal_health_values_add(jcal_health_values_t *self, const jcal_imu_t *imu, uint32_t dt_us);
+/// Takes in a reading that came dt_us after the last one. Cost: about 100 instructions.
+void jcal_health_values_add(jcal_health_values_t *self, const jcal_imu_t *imu, const jcal_health_squares_t *squares,
+                            uint32_t dt_us);
 
 /// Bits of the components that are dead.
 uint8_t jcal_health_values_dead(const jcal_health_values_t *self);

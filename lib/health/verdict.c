@@ -105,7 +105,7 @@ static void judge_rails(const jcal_health_t *self, result_t *out)
     float level = 0.0f;
     unsigned bits = 0u;
     for (unsigned k = 0u; k < 12u; ++k) {
-        const jcal_health_rail_t *const rail = &self->rails[k % 6u][k / 6u];
+        const jcal_health_rail_t *const rail = &self->rails.rail[k % 6u][k / 6u];
         if (jcal_health_rail_clips(rail)) {
             level = (bits == 0u) ? jcal_health_rail_level(rail, k % 6u) : level;
             bits |= 1u << k;
@@ -143,24 +143,24 @@ static bool is_right_handed(const jcal_health_way_t *way)
 static float mean_open(const jcal_health_frames_t *frames)
 {
     const float windows = (float)frames->trials + (float)frames->fits;
-    const float open = frames->score[JCAL_HEALTH_AS_IS] + (JCAL_HEALTH_OPEN * (float)frames->fits);
+    const float open = jcal_health_frames_score(frames, JCAL_HEALTH_AS_IS) + (JCAL_HEALTH_OPEN * (float)frames->fits);
     return (windows >= (float)TRIALS_MIN) ? (open / windows) : 1.0f;
 }
 
 static void judge_frames(const jcal_health_t *self, result_t *out)
 {
     const jcal_health_frames_t *const frames = &self->frames;
-    const float *const score = frames->score;
     float next = 0.0f;
     const unsigned best = jcal_health_frames_best(frames, &next);
-    const float as_is = score[JCAL_HEALTH_AS_IS];
+    const float least = jcal_health_frames_score(frames, best);
+    const float as_is = jcal_health_frames_score(frames, JCAL_HEALTH_AS_IS);
     const float mean = as_is / jcal_max((float)frames->trials, 1.0f);
-    const bool is_clear = (frames->trials >= TRIALS_CLEAR) && (as_is > (OPEN_TIMES_CLEAR * score[best]));
+    const bool is_clear = (frames->trials >= TRIALS_CLEAR) && (as_is > (OPEN_TIMES_CLEAR * least));
     const bool is_tried = (frames->trials >= TRIALS_MIN) || is_clear;
-    const bool is_deg =
-        is_tried && (out->rms_rad_s > RATE_UNIT_RAD_S) && (score[JCAL_HEALTH_DEG] < (RATE_UNIT_SHARE * as_is));
-    const float times = as_is / jcal_max(score[best], OPEN_LEAST);
-    const bool stands_out = (times > OPEN_TIMES_ALONE) && (next > (NEXT_TIMES_ALONE * score[best]));
+    const bool is_deg = is_tried && (out->rms_rad_s > RATE_UNIT_RAD_S) &&
+                        (jcal_health_frames_score(frames, JCAL_HEALTH_DEG) < (RATE_UNIT_SHARE * as_is));
+    const float times = as_is / jcal_max(least, OPEN_LEAST);
+    const bool stands_out = (times > OPEN_TIMES_ALONE) && (next > (NEXT_TIMES_ALONE * least));
     const bool is_other = is_tried && !is_deg && (mean > OPEN_MIN) && ((times > OPEN_TIMES) || stands_out);
     const bool is_right =
         is_tried && !is_deg && (best == JCAL_HEALTH_AS_IS) && (mean < OPEN_FINE) && (next > (FINE_TIMES * as_is));
@@ -168,7 +168,7 @@ static void judge_frames(const jcal_health_t *self, result_t *out)
     say(out, JCAL_FINDING_FRAMES, is_other || is_right, is_other, is_other ? times : 1.0f);
     if (is_other) {
         const jcal_health_way_t way = jcal_health_frames_way(best);
-        out->way_known = next > (NEXT_TIMES * score[best]);
+        out->way_known = next > (NEXT_TIMES * least);
         out->way_of_gyr = !is_right_handed(&way);
         out->way = out->way_of_gyr ? way : of_forces(&way);
     }
@@ -235,7 +235,7 @@ jcal_status_t jcal_health_get(const jcal_health_t *self, jcal_health_result_t *o
         return JCAL_ERR_ARG;
     }
     jcal_clear(out, sizeof *out);
-    out->readings = self->pace.readings + ((self->pace.last_us != 0u) ? 1u : 0u);
+    out->readings = self->pace.readings + (self->pace.has_last ? 1u : 0u);
     out->rejected = self->rejected;
     judge_times(self, out);
     judge_values(self, out);

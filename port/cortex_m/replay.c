@@ -6,7 +6,7 @@
  * replay_mark_* tell tools/budget.py's instruction counter where a call begins and ends.
  *
  * Compile definitions: REPLAY_TWO_DOF, REPLAY_CENTER, REPLAY_CHAIN (stream engine of the 2-DoF joint, of the joint centre, of
- * hip and knee; otherwise that of the hinge), REPLAY_SENSOR (the stage of one sensor), REPLAY_FUNCTIONAL (the functional hinge: a push is
+ * hip and knee; otherwise that of the hinge), REPLAY_SENSOR (the stage of one sensor), REPLAY_HEALTH (the health of one), REPLAY_FUNCTIONAL (the functional hinge: a push is
  * jcal_functional_add at a tick, a step one jcal_functional_step, an update both; the stages of its sensors are not counted), REPLAY_TWO_AXES
  * (a person's joint with two axes, in the same way),
  * REPLAY_SHOW_SLICES (a line before each step of it: which slice), REPLAY_AUTO (a hinge of either kind), REPLAY_WINDOW (window engine of the hinge, N_max 125), REPLAY_SLICES=N (slices_per_s of the stream engine), REPLAY_SIXTEEN (sixteen stream engines, one call is the
@@ -17,6 +17,7 @@
 #include "jointcal/center.h"
 #include "jointcal/chain.h"
 #include "jointcal/functional.h"
+#include "jointcal/health.h"
 #include "jointcal/hinge.h"
 #include "jointcal/hinge_auto.h"
 #include "jointcal/hinge_window.h"
@@ -136,6 +137,17 @@ static jcal_status_t engine_get(const jcal_sensor_t *self, result_t *out)
         out->tick = *tick;
     }
     return JCAL_OK;
+}
+#elif defined(REPLAY_HEALTH)
+typedef jcal_reading_t sample_t;
+typedef jcal_health_result_t result_t;
+static jcal_health_t replayed;
+#define engine_update jcal_health_push
+#define engine_get jcal_health_get
+
+static jcal_status_t engine_init(void)
+{
+    return jcal_health_init(&replayed);
 }
 #elif defined(REPLAY_FUNCTIONAL)
 #define OF_TICKS
@@ -547,6 +559,27 @@ static uint64_t hash_result(uint64_t hash, const result_t *r)
     hash = hash_array(hash, tick->lever, 9);
     return hash_u64(hash_u64(hash, tick->epoch, 4), tick->t_us, 8);
 }
+#elif defined(REPLAY_HEALTH)
+static uint64_t hash_result(uint64_t hash, const result_t *r)
+{
+    for (size_t k = 0; k < JCAL_FINDING_COUNT; ++k) {
+        hash = hash_f32(hash_u64(hash, (uint32_t)r->state[k], 4), r->fact[k]);
+    }
+    for (size_t k = 0; k < 3u; ++k) {
+        hash = hash_u64(hash, (uint32_t)(10 + r->way.column[k]) + (100u * (uint32_t)(10 + r->way.sign[k])), 4);
+    }
+    const uint32_t words[] = {
+        r->readings, r->rejected, r->gaps, r->dead, r->clipped, r->way_known ? 1u : 0u, r->way_of_gyr ? 1u : 0u};
+    for (size_t k = 0; k < sizeof(words) / sizeof(words[0]); ++k) {
+        hash = hash_u64(hash, words[k], 4);
+    }
+    const float floats[] = {r->rate_hz,  r->longest_gap_s, r->rest_s,    r->rms_rad_s,
+                            r->motion_s, r->scale_bound,   r->fast_share};
+    for (size_t k = 0; k < sizeof(floats) / sizeof(floats[0]); ++k) {
+        hash = hash_f32(hash, floats[k]);
+    }
+    return hash;
+}
 #else
 #ifdef REPLAY_TWO_DOF
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
@@ -735,7 +768,8 @@ static uint64_t hash_result(uint64_t hash, const result_t *r)
 /* False where there is no status. */
 static bool is_ready(const result_t *r)
 {
-#if defined(REPLAY_SENSOR) || defined(REPLAY_LAG) || defined(REPLAY_PAIRING) || defined(REPLAY_PACKETS)
+#if defined(REPLAY_SENSOR) || defined(REPLAY_HEALTH) || defined(REPLAY_LAG) || defined(REPLAY_PAIRING) ||              \
+    defined(REPLAY_PACKETS)
     (void)r;
     return false;
 #else

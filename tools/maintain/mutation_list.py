@@ -42,6 +42,7 @@ CMODEL = "lib/center/model.c"
 SUMS = "lib/center/sums.c"
 INPUT = "lib/center/input.c"
 CJUDGE = "lib/center/judge.c"
+CGRAVITY = "lib/center/gravity.c"
 CRESULT = "lib/center/result.c"
 CENTER = "lib/center/stream.c"
 CWINDOW = "lib/center/window.c"
@@ -504,6 +505,15 @@ MUTATIONS = [
     (CJUDGE, "#define ALONG_COSINE2 0.9f", "#define ALONG_COSINE2 0.0f", "a doubtful direction apart from the known axis"),
     (CJUDGE, "ROW_ERROR * sqrtf(jcal_max(power, 1.0f));", "ROW_ERROR * jcal_max(power, 1.0f);", "root of wrong information"),
     (CJUDGE, "#define POWER_STEPS 4u", "#define POWER_STEPS 0u", "power iteration"),
+    (CGRAVITY, "#define OFF_MAX_M_S2 0.59f", "#define OFF_MAX_M_S2 5.9f", "accelerometers that are scaled"),
+    (CGRAVITY, "#define KNOWN_S 2.0f", "#define KNOWN_S 0.0f", "gravity that is not known yet"),
+    (CGRAVITY, "jcal_plane_times(h2, h1));", "jcal_plane_against(h2, h1));", "a force of the wrong sign"),
+    (CGRAVITY, "#define POWER_MIN 0.04f", "#define POWER_MIN 0.0f", "a centre that rests tells no sign"),
+    (CGRAVITY, "#define MIRRORED_TIMES 2.0f", "#define MIRRORED_TIMES 0.0f", "a centre on one line tells no sign"),
+    (CGRAVITY, "(goes_on ? jcal_min(self->chain_s, MEAN_S) : 0.0f)", "jcal_min(self->chain_s, MEAN_S)", "frames that began anew"),
+    (CGRAVITY, "const float rates = 2.0f * cfg->rate_mismatch;", "const float rates = cfg->rate_mismatch;", "rates go in squared"),
+    (CJUDGE, "sqrtf((inverse->hidden_m * inverse->hidden_m) + (scale_m * scale_m));", "inverse->hidden_m;", "errors of scale in the bound"),
+    (CJUDGE, "if (is_grave || (b[worse].all <= limit)) {", "if (b[worse].all <= limit) {", "what is grave comes first"),
     ("lib/center/place.h", "0.5f * (along1 + along2);", "0.5f * (along1 - along2);", "next to both sensors"),
     ("lib/center/place.h", "jcal_vec3_sub(place->r2, jcal_vec3_scale(cfg->hinge_axis2, shift))",
      "jcal_vec3_sub(place->r2, jcal_vec3_scale(cfg->hinge_axis1, shift))", "axis in sensor frame 2"),
@@ -1044,19 +1054,19 @@ MUTATIONS = [
     (H_MOTION, "#define REST_SCATTER_ACC 0.02f", "#define REST_SCATTER_ACC 0.00001f", "scatter of forces at rest"),
     (H_PACE, "(gap_s / self->period_s) - 0.5f", "(gap_s / self->period_s) + 1.5f", "readings that a gap lost"),
     (H_PACE, "off_s * (dt_s - self->period_s)", "2.0f * off_s * (dt_s - self->period_s)", "scatter of distances"),
-    (H_RAILS, "rail->top > (FLAT_RATIO * rail->side)", "rail->top > 0u", "round peaks are not flat"),
-    (H_RAILS, "is_flat(rail) && is_above", "is_above", "a glitch is no flat peak"),
+    (H_RAILS, "peak->top > (FLAT_RATIO * peak->side)", "peak->top > 0u", "round peaks are not flat"),
+    (H_RAILS, "is_flat(peak) && is_above", "is_above", "a glitch is no flat peak"),
     (H_SCALE, "self->products[k] -= (weight / g2)", "self->products[k] += (weight / g2)", "sign of the scale"),
     (H_SCALE, "jcal_vec3_sub(jcal_turn_back(r, past->by_scale), jcal_vec3_cross(block->angle, g))",
      "jcal_vec3_add(jcal_turn_back(r, past->by_scale), jcal_vec3_cross(block->angle, g))", "derivative with respect to the scale"),
     (H_SCALE, "past->by_bias[k] *= 1.0f - q;", "past->by_bias[k] *= q;", "what a low-pass forgets of the bias"),
     (H_SCALE, "#define TAKE_SHARE 0.07f", "#define TAKE_SHARE 7.0f", "a scale that is far off is taken off"),
     (H_VALUES, "1.0f / (1.0f - jcal_min(share, 0.999f))", "1.0f / jcal_min(share, 0.999f)", "how often a reading comes"),
-    (H_VALUES, "count_stuck(self, imu, moving && !same);", "count_stuck(self, imu, moving && same);", "dead, not frozen"),
+    (H_VALUES, "(moving && !same) ? 1u : 0u", "(moving && same) ? 1u : 0u", "dead, not frozen"),
     (H_VERDICT, "way.column[rates->column[k]] = (int8_t)k;", "way.column[k] = rates->column[k];", "forces are read the other way round than rates"),
     (H_VERDICT, "return (signs > 0) == is_even;", "return (signs > 0) != is_even;", "right-handed ways"),
     (H_VERDICT, "#define GRAVITY_SHARE 0.06f", "#define GRAVITY_SHARE 0.08f", "how far off gravity may be"),
-    (H_VERDICT, "(score[JCAL_HEALTH_DEG] < (RATE_UNIT_SHARE * as_is))", "(false)", "rates in deg/s"),
+    (H_VERDICT, "(jcal_health_frames_score(frames, JCAL_HEALTH_DEG) < (RATE_UNIT_SHARE * as_is))", "(false)", "rates in deg/s"),
     (DECAY, "p = p * (2.0f - p);\n    return", "return", "doublings of the exponential"),
 ]
 

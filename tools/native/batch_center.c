@@ -21,6 +21,7 @@ void jcal_batch_center_defaults(jcal_batch_center_options_t *options)
         .smoothing_s = config.kinematics.smoothing_s,
         .max_bound_m = config.max_bound_m,
         .mismatch_m = config.mismatch_m,
+        .rate_mismatch = config.rate_mismatch,
         .acc_noise_m_s2 = config.acc_noise_m_s2,
         .turn_error = config.turn_error,
         .acc_bias_m_s2 = config.acc_bias_m_s2,
@@ -49,6 +50,7 @@ jcal_center_config_t jcal_batch_center_config(const jcal_batch_center_options_t 
     config.kinematics.smoothing_s = options->smoothing_s;
     config.max_bound_m = options->max_bound_m;
     config.mismatch_m = options->mismatch_m;
+    config.rate_mismatch = options->rate_mismatch;
     config.acc_noise_m_s2 = options->acc_noise_m_s2;
     config.turn_error = options->turn_error;
     config.acc_bias_m_s2 = options->acc_bias_m_s2;

@@ -16,6 +16,7 @@ typedef struct {
     float smoothing_s;
     float max_bound_m;
     float mismatch_m;
+    float rate_mismatch;
     float acc_noise_m_s2;
     float turn_error;
     float acc_bias_m_s2;

@@ -2,6 +2,7 @@
 /* Runs the health of one sensor over arrays. */
 #include "batch_health.h"
 
+#include "health/frames.h"
 #include "health/scale.h"
 
 #include <string.h>
@@ -32,7 +33,9 @@ static void write(const jcal_health_t *health, jcal_batch_health_out_t *out)
                                                       r.way.sign[1],
                                                       r.way.sign[2]};
     memcpy(out->numbers, numbers, sizeof(numbers));
-    memcpy(out->score, health->frames.score, sizeof(out->score));
+    for (unsigned k = 0; k < sizeof(out->score) / sizeof(out->score[0]); k++) {
+        out->score[k] = jcal_health_frames_score(&health->frames, k);
+    }
     out->trials = (float)health->frames.trials;
     out->fits = (float)health->frames.fits;
     const jcal_health_scale_found_t found = jcal_health_scale_solve(&health->scale);

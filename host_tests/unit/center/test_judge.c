@@ -22,6 +22,7 @@ void setUp(void)
     config = jcal_center_config_default();
     memset(&work, 0, sizeof work);
     jcal_center_verdict_begin(&work.verdict, JCAL_COLLECTING);
+    work.gravity = (jcal_center_gravity_t){.level1 = 9.81f, .level2 = 9.81f, .time_s = 10.0f};
 }
 
 void tearDown(void)
@@ -373,6 +374,52 @@ static void ready_takes_three_judgements_and_is_lost_beyond_a_fifth_more(void)
     TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, judge(0.0119f, 0.009f)->status);
 }
 
+static void no_gravity_is_no_ready_and_says_so(void)
+{
+    work.sums = double_sums(1, 0.5, 1.0);
+    for (int k = 0; k < 3; ++k) {
+        (void)judge(0.009f, 0.009f);
+    }
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, work.verdict.status);
+    work.gravity.level2 = 10.45f; /* within 1.2 times 6 % */
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, judge(0.009f, 0.009f)->status);
+    work.gravity.level2 = 10.55f;
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, judge(0.009f, 0.009f)->status);
+    TEST_ASSERT_EQUAL_INT(JCAL_REASON_GRAVITY_OFF, work.verdict.reason);
+    TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, work.verdict.hint);
+    work.gravity.level2 = 10.45f;
+    TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, judge(0.009f, 0.009f)->status);
+    work.gravity.level2 = 9.81f;
+    work.gravity.time_s = 1.9f; /* not known */
+    for (int k = 0; k < 4; ++k) {
+        TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, judge(0.009f, 0.009f)->status);
+        TEST_ASSERT_EQUAL_INT(JCAL_REASON_UNCERTAIN, work.verdict.reason);
+    }
+}
+
+/* 2 mm and sqrt(radius^2 + hidden^2 + shift^2), of which only the radius is there at a place of zero. */
+static void errors_of_scale_are_in_the_bound_of_their_sensor(void)
+{
+    work.sums = double_sums(1, 0.5, 1.0);
+    jcal_sym_scale(work.sums.matrix, JCAL_CENTER_UNKNOWNS,
+                   1e4f); /* what is known well, so that scale is what is left */
+    const jcal_vec3_t none = {0.0f, 0.0f, 0.0f};
+    work.sums.point.place.r1 = none; /* nothing to be scaled, and nothing that hides */
+    work.sums.point.place.r2 = none;
+    judge_to_bounds();
+    const double before = (double)work.as.inverse.bounds[1].all - 0.002;
+    const double other = (double)work.as.inverse.bounds[0].all;
+    work.sums.point.place.r2 = jcal_vec3(0.0f, 0.3f, 0.4f);
+    config.rate_mismatch = 0.01f;
+    judge_to_bounds();
+    const double hidden = (double)work.as.inverse.hidden_m;
+    const double expected = 0.002 + sqrt(before * before + hidden * hidden + 0.01 * 0.01);
+    TEST_ASSERT_TRUE(before < 0.02);
+    TEST_ASSERT_TRUE(is_near(expected, (double)work.as.inverse.bounds[1].all, 1e-3 * expected));
+    const double alone = 0.002 + sqrt((other - 0.002) * (other - 0.002) + hidden * hidden);
+    TEST_ASSERT_TRUE(is_near(alone, (double)work.as.inverse.bounds[0].all, 1e-3 * alone));
+}
+
 static void a_few_blocks_tell_no_bounds(void)
 {
     work.sums = double_sums(1, 0.5, 1.0);
@@ -519,6 +566,8 @@ int main(void)
     RUN_TEST(a_matrix_without_a_factor_ends_the_work);
     RUN_TEST(the_step_goes_to_the_minimum);
     RUN_TEST(ready_takes_three_judgements_and_is_lost_beyond_a_fifth_more);
+    RUN_TEST(no_gravity_is_no_ready_and_says_so);
+    RUN_TEST(errors_of_scale_are_in_the_bound_of_their_sensor);
     RUN_TEST(a_few_blocks_tell_no_bounds);
     RUN_TEST(what_is_missing_is_named);
     RUN_TEST(a_covariance_that_is_no_number_has_no_bounds);

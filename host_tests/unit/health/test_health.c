@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// Tests of jointcal/health.h: each finding on a made-up sensor, nothing on a good one, and what is unknown before motion.
+#include "health/frames.h"
 #include "unit/health/fixture.h"
 
 static jcal_health_t health;
@@ -44,7 +45,7 @@ static void a_good_sensor_has_nothing(void)
     TEST_ASSERT_TRUE(said.scale_bound < 0.025f);
     /* Rounding to 1/32 of gravity, carried on, leaves a part's mean right to 0.3 % or so: 1e-5 of its square a component. */
     TEST_ASSERT_TRUE(health.frames.trials > 0u);
-    TEST_ASSERT_TRUE(health.frames.score[0] < 1e-4f * (float)health.frames.trials);
+    TEST_ASSERT_TRUE(jcal_health_frames_score(&health.frames, 0u) < 1e-4f * (float)health.frames.trials);
 }
 
 static void nothing_is_known_at_first(void)
@@ -375,6 +376,23 @@ static void wrong_calls_and_readings_are_refused(void)
     TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_health_get(&zero, &said));
 }
 
+/* A time of all ones was taken for no reading at all. */
+static void the_last_time_that_there_is_counts(void)
+{
+    const jcal_reading_t reading = {UINT64_MAX, {{0.1f, 0.2f, 0.3f}, {1.0f, 2.0f, 9.0f}}};
+    jcal_reading_t next = reading;
+    jcal_health_result_t said;
+    next.t_us = 5u;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_health_push(&health, &reading));
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_health_push(&health, &reading));
+    TEST_ASSERT_EQUAL_INT(JCAL_REJECTED, jcal_health_push(&health, &next)); /* set back, and believed from now on */
+    next.t_us = 10005u;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_health_push(&health, &next));
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_health_get(&health, &said));
+    TEST_ASSERT_EQUAL_UINT32(2u, said.readings);
+    TEST_ASSERT_EQUAL_UINT32(2u, said.rejected);
+}
+
 static void every_finding_has_a_word_of_its_own(void)
 {
     for (unsigned k = 0u; k < (unsigned)JCAL_FINDING_COUNT; ++k) {
@@ -413,6 +431,7 @@ int main(void)
     RUN_TEST(round_peaks_at_one_value_are_not_clipped);
     RUN_TEST(times_are_told);
     RUN_TEST(wrong_calls_and_readings_are_refused);
+    RUN_TEST(the_last_time_that_there_is_counts);
     RUN_TEST(every_finding_has_a_word_of_its_own);
     return UNITY_END();
 }

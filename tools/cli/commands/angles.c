@@ -149,7 +149,7 @@ int angles_command(int argc, char **argv)
     common_parse(&ANGLES_LINE, argc, argv, &common, &session->options);
     exit_status_t status = prepare(session);
     if (status == EXIT_READY) {
-        status = reading_open_given(&session->reading, &common);
+        status = reading_open_given(&session->reading, &common, false);
         status = (status == EXIT_READY) ? run_recording(session) : status;
         orientations_close(&session->orientations);
         reading_close(&session->reading);

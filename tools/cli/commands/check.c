@@ -26,16 +26,21 @@ static void settle(struct argp_state *state, common_options_t *common, void *opt
 }
 
 static const command_line_t LINE = {
-    .args_doc = "RECORDING.csv",
+    .args_doc = "RECORDING.csv\nSENSOR1.csv SENSOR2.csv",
+    .two_files = true,
     .doc =
         "Says what the sensors of a recording do, and what is wrong with it as a whole: units, gravity, frames, times.\v"
         "The recording is as for 'jointcal hinge', with or without a third sensor. Gravity is in m/s^2 if the accelerations are. It "
         "turns against a sensor as fast as the rates say if they are in rad/s, t_s is in seconds, and both stand in one right-handed "
         "frame: 1.0 times. Both are unknown where the sensor hardly turns.\n"
         "\n"
+        "A lag of sensor 2 is told where the motion shows it; one of more than 20 ms is wrong, since all other commands go wrong by it.\n"
+        "\n" COMMON_TWO_FILES
         "Exit status: 0 nothing is wrong as a whole; 3 something is; 2 the command line or the recording is wrong; 1 anything "
         "else." COMMON_PICTURE,
-    .offers = {[COMMON_JSON] = {.help = COMMON_JSON_HELP}, [COMMON_SORT] = {.help = COMMON_SORT_HELP}},
+    .offers = {[COMMON_JSON] = {.help = COMMON_JSON_HELP},
+               [COMMON_SORT] = {.help = COMMON_SORT_HELP},
+               [COMMON_LAG] = {.help = COMMON_LAG_HELP}},
     .settle = settle,
 };
 
@@ -52,7 +57,8 @@ typedef struct {
     uint32_t rejected;
     uint32_t rejected_by[JCAL_REJECT_COUNT];
     int sensors;
-    lag_watch_t lag; /* of sensors 1 and 2 */
+    lag_watch_t watch; /* of sensors 1 and 2 of one file */
+    report_lag_t lag;
     check_findings_t findings;
     check_measures_t measures;
 } session_t;
@@ -71,12 +77,19 @@ static void numbers(json_t *json, const char *key, const double *values, int cou
     (void)fputc(']', json->file);
 }
 
+/* What the library says of a sensor, by its own readings. */
+static jcal_health_result_t health_of(const session_t *session, int k)
+{
+    const two_files_t *two = session->reading.two;
+    return (two != NULL) ? two_files_health(two, (unsigned)k) : check_health_of(&session->reading.recording.check, k);
+}
+
 static void write_sensors(json_t *json, const session_t *session)
 {
     json_key(json, "sensors");
     for (int k = 0; k < session->sensors; k++) {
         (void)fputs((k == 0) ? "[" : ", ", json->file);
-        const jcal_health_result_t result = check_health_of(&session->reading.recording.check, k);
+        const jcal_health_result_t result = health_of(session, k);
         json_t sensor = json_begin(json->file);
         report_health_json(&sensor, &result);
         json_end(&sensor);
@@ -94,9 +107,12 @@ static void write_json(const session_t *session)
     json_count(&json, "out_of_order", (uint32_t)measures->out_of_order);
     numbers(&json, "gravity_m_s2", measures->gravity_m_s2, session->sensors);
     numbers(&json, "gravity_turns", measures->gravity_turns, session->sensors);
-    const lag_found_t lag = lag_watch_found(&session->lag);
-    json_number(&json, "lag_s", lag.known ? (float)lag.lag_s : NAN);
-    json_number(&json, "lag_bound_s", lag.known ? (float)lag.bound_s : NAN);
+    const report_lag_t *lag = &session->lag;
+    json_time(&json, "lag_s", lag->known, lag->lag_us);
+    json_number(&json, "lag_bound_s", lag->known ? lag->bound_s : NAN);
+    if (lag->two_files) {
+        json_number(&json, "drift_ppm", lag->known ? 1e6f * lag->drift : NAN);
+    }
     write_sensors(&json, session);
     json_count(&json, "rejected", session->rejected);
     json_rejected(&json, session->rejected_by);
@@ -112,13 +128,17 @@ static void print(const session_t *session)
     if (measures->step_s > 0.0) {
         (void)printf("  %-18s %.4g rows a second\n", "rate", 1.0 / measures->step_s);
     }
-    const lag_found_t lag = lag_watch_found(&session->lag);
-    if (lag.known) {
-        (void)printf("  %-18s sensor 2 is late by %ld ms, to within %.0f\n", "lag", lround(1e3 * lag.lag_s),
-                     1e3 * lag.bound_s); /* a whole number has no -0 */
+    if (session->lag.two_files) {
+        two_files_print(session->reading.two, stdout);
+    } else if (session->lag.known) {
+        (void)printf("  %-18s sensor 2 is late by %ld ms, to within %.0f\n", "lag",
+                     lround(1e-3 * (double)session->lag.lag_us),
+                     1e3 * (double)session->lag.bound_s); /* a whole number has no -0 */
+    } else {
+        (void)printf("  %-18s not known: lively motion of one joint tells it\n", "lag");
     }
     for (int k = 0; k < session->sensors; k++) {
-        const jcal_health_result_t result = check_health_of(&session->reading.recording.check, k);
+        const jcal_health_result_t result = health_of(session, k);
         report_health_print(stdout, k + 1, &result);
     }
     report_print_samples(stdout, session->rows, session->rejected, session->rejected_by);
@@ -135,7 +155,9 @@ static void take(session_t *session, const recording_row_t *row)
     if (!row->has_time) {
         pair.imu1.gyr_rad_s.x = NAN; /* the library's time has no NaN; the sample has */
     }
-    lag_watch_row(&session->lag, row, session->clock.start_us);
+    if (session->reading.two == NULL) {
+        lag_watch_row(&session->watch, row, session->clock.start_us);
+    }
     const jcal_reject_t reject = jcal_gate_check(&session->gate, &session->gate_config, &pair);
     session->rows++;
     if (reject != JCAL_REJECT_NONE) {
@@ -161,7 +183,11 @@ static exit_status_t run_rows(session_t *session)
         return reading_give_up(&session->reading, event);
     }
     progress_clear(&session->reading.progress);
-    check_findings(&recording->check, &session->findings);
+    reading_findings(&session->reading, JCAL_REASON_NONE, &session->findings);
+    session->lag = reading_lag(&session->reading, &session->watch, &session->findings);
+    if (session->reading.two != NULL) {
+        two_files_health_findings(session->reading.two, &recording->check, &session->findings);
+    }
     check_measures(&recording->check, &session->measures);
     if (session->common.json) {
         write_json(session);
@@ -184,8 +210,8 @@ int check_command(int argc, char **argv)
     common_parse(&LINE, argc, argv, &session->common, NULL);
     session->gate_config = jcal_gate_config_default();
     jcal_gate_init(&session->gate);
-    (void)lag_watch_begin(&session->lag); /* its parts are ours, and so are their settings */
-    exit_status_t status = reading_open(&session->reading, session->common.recording, session->common.sort);
+    (void)lag_watch_begin(&session->watch); /* its parts are ours, and so are their settings */
+    exit_status_t status = reading_open_given(&session->reading, &session->common, true);
     if (status == EXIT_READY) {
         reading_begin(&session->reading);
         status = run_rows(session);

@@ -191,7 +191,8 @@ static void say_sensor(const check_sensor_t *sensor, int number, check_findings_
     case CHECK_SENSOR_TURNS_BACK:
         check_say(
             findings,
-            "rates of sensor %d turn the wrong way round: all three have the wrong sign, or its frame is left-handed",
+            "rates of sensor %d turn the wrong way round: all three have the wrong sign, or its frame is left-handed; turn the signs of "
+            "its rates round",
             number);
         break;
     case CHECK_SENSOR_RATES:
@@ -263,11 +264,15 @@ static bool is_grave(const jcal_health_result_t *result, jcal_finding_t finding)
 static void say_health_of(const check_t *check, int sensor, bool grave, check_findings_t *findings)
 {
     const jcal_health_result_t result = check_health_get(&check->health[sensor]);
-    const bool is_told = check_sensor_verdict(&check->sensors[sensor]).fault != CHECK_SENSOR_FINE;
+    const check_sensor_t *own = &check->sensors[sensor];
+    const bool is_told = check_sensor_verdict(own).fault != CHECK_SENSOR_FINE;
+    const bool is_held =
+        check_sensor_acc_held(own) > 1 || check_sensor_gyr_held(own) > 1 || check_sensor_both_held(own) > 1;
     for (int k = (int)JCAL_FINDING_FROZEN; k < (int)JCAL_FINDING_COUNT && findings->count < CHECK_SENTENCES; k++) {
         const jcal_finding_t finding = (jcal_finding_t)k;
         const bool of_columns = k >= (int)JCAL_FINDING_NO_GRAVITY;
-        if (finding == JCAL_FINDING_HELD || (of_columns && is_told) || is_grave(&result, finding) != grave) {
+        if ((finding == JCAL_FINDING_HELD && is_held) || (of_columns && is_told) ||
+            is_grave(&result, finding) != grave) {
             continue;
         }
         if (check_health_sentence(&result, finding, sensor + 1, findings->sentences[findings->count])) {

@@ -7,6 +7,9 @@
 /// permutations P, and only with that one put right, and with the right unit of w, does the equation hold. It is linear in P but for a
 /// term of second order, so a few sums over all blocks of a tenth of a second tell the residual of every candidate at the end. P and -P
 /// cannot be told apart; rates that all have the wrong sign can.
+///
+/// The library's health.h names wrong frames too, but from windows of four seconds: a joint of two such sensors was ready before it did, and
+/// this one knows after five seconds of slow motion, and the factor of any unit of the rates.
 #ifndef JCAL_CLI_INPUT_CHECK_FRAMES_H
 #define JCAL_CLI_INPUT_CHECK_FRAMES_H
 

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// What the readings of one sensor tell of their units, their frame, gravity in them, and how often they are new.
+///
+/// The library's health.h has rules for the same, for sensors whose units are right: these stay because they name the unit, whatever it is, and
+/// which of accelerometer and gyroscope is held, and because they refuse after five seconds, before a joint can be ready.
 #ifndef JCAL_CLI_INPUT_CHECK_SENSOR_H
 #define JCAL_CLI_INPUT_CHECK_SENSOR_H
 

@@ -40,28 +40,11 @@ static exit_status_t flush(void)
     return EXIT_READY;
 }
 
-/* What is known of the lag: of two files it is taken off, of one it is told. */
-static void look_at_lag(session_t *session)
-{
-    report_lag_t *lag = &session->self->lag;
-    if (session->reading.two != NULL) {
-        const two_files_lag_t found = two_files_lag(session->reading.two);
-        const bool given = session->reading.two->kind == TWO_FILES_GIVEN;
-        *lag = (report_lag_t){.known = found.known,
-                              .lag_us = found.lag_us,
-                              .bound_s = given ? NAN : (float)found.bound_s,
-                              .two_files = true,
-                              .drift = found.has_drift ? (float)found.drift : NAN};
-        return;
-    }
-    *lag = lag_watch_report(&session->lag, &session->reading.recording.check, &session->report.findings);
-}
-
 /* Asks what there is to say of the recording as a whole. */
 static void look_at_recording(session_t *session)
 {
     reading_findings(&session->reading, session->report.head.reason, &session->report.findings);
-    look_at_lag(session);
+    session->self->lag = reading_lag(&session->reading, &session->lag, &session->report.findings);
     if (session->joint->axes != NULL && !session->sign_is_chosen && session->report.head.status == JCAL_READY) {
         const report_axes_t axes = session->joint->axes(session->self);
         report_advise_sign(&axes, &session->report.findings);
@@ -282,7 +265,7 @@ static exit_status_t run(session_t *session, const common_options_t *options, co
     session->sign_is_chosen = toward.x != 0.0f || toward.y != 0.0f || toward.z != 0.0f;
     session->report.words = joint->words;
     session->report.max_bound = options->max_bound;
-    exit_status_t status = reading_open_given(&session->reading, options);
+    exit_status_t status = reading_open_given(&session->reading, options, false);
     if (status == EXIT_READY && !lag_watch_begin(&session->lag)) {
         status = refused();
     }

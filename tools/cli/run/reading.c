@@ -3,6 +3,7 @@
 #include "run/reading.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,13 +40,14 @@ static exit_status_t open_two(reading_t *reading, const two_files_config_t *conf
     return (event == RECORDING_ROW) ? EXIT_READY : reading_give_up(reading, event);
 }
 
-exit_status_t reading_open_given(reading_t *reading, const common_options_t *options)
+exit_status_t reading_open_given(reading_t *reading, const common_options_t *options, bool watched)
 {
     if (options->second == NULL) {
         return reading_open(reading, options->recording, options->sort);
     }
     const two_files_config_t config = {.names = {options->recording, options->second},
                                        .sorted = options->sort,
+                                       .watched = watched,
                                        .has_lag = options->has_lag,
                                        .lag_us = options->lag_us};
     return open_two(reading, &config);
@@ -57,6 +59,19 @@ void reading_findings(const reading_t *reading, jcal_reason_t reason, check_find
     if (reading->two != NULL) {
         two_files_findings(reading->two, reason, findings);
     }
+}
+
+report_lag_t reading_lag(const reading_t *reading, const lag_watch_t *watch, check_findings_t *findings)
+{
+    if (reading->two == NULL) {
+        return lag_watch_report(watch, &reading->recording.check, findings);
+    }
+    const two_files_lag_t found = two_files_lag(reading->two);
+    return (report_lag_t){.known = found.known,
+                          .lag_us = found.lag_us,
+                          .bound_s = (reading->two->kind == TWO_FILES_GIVEN) ? NAN : (float)found.bound_s,
+                          .two_files = true,
+                          .drift = found.has_drift ? (float)found.drift : NAN};
 }
 
 void reading_begin(reading_t *reading)

@@ -9,6 +9,7 @@
 #include "options/common.h"
 #include "output/message.h"
 #include "output/progress.h"
+#include "run/lag_watch.h"
 #include "run/two_files.h"
 
 typedef struct {
@@ -22,10 +23,14 @@ typedef struct {
 exit_status_t reading_open(reading_t *reading, const char *name, bool sorted);
 
 /// The same of what the command line says, which may be two files with one sensor each.
-exit_status_t reading_open_given(reading_t *reading, const common_options_t *options);
+/// `watched`: what the sensors of two files do is of interest (two_files.h).
+exit_status_t reading_open_given(reading_t *reading, const common_options_t *options, bool watched);
 
 /// What there is to say of the recording as a whole; `reason` is what the joint says.
 void reading_findings(const reading_t *reading, jcal_reason_t reason, check_findings_t *findings);
+
+/// What is known of the lag: of two files it is taken off; of one, `watch` saw its rows, and what to do is added to what there is to say.
+report_lag_t reading_lag(const reading_t *reading, const lag_watch_t *watch, check_findings_t *findings);
 
 /// Draws progress from here on.
 void reading_begin(reading_t *reading);

@@ -274,6 +274,8 @@ recording_event_t two_files_open(two_files_t *two, const two_files_config_t *con
     }
     if (event == RECORDING_ROW) {
         event = open_files(two);
+        two->files[0].recording.check.times_only = !config->watched;
+        two->files[1].recording.check.times_only = !config->watched;
     }
     const jcal_pairing_config_t pairing = jcal_pairing_config_default();
     return (jcal_pairing_init(&two->pairing, &pairing) == JCAL_OK) ? event : RECORDING_FAILED;

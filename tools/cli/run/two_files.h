@@ -25,6 +25,7 @@
 typedef struct {
     const char *names[2];
     bool sorted;
+    bool watched;    ///< What the sensors of both files do is of interest, at the rate of each: two_files_health.
     bool has_lag;    ///< The lag is given ...
     int64_t lag_us;  ///< ... and is this.
 } two_files_config_t;
@@ -84,6 +85,12 @@ recording_event_t two_files_next(void *context, recording_row_t *row);
 
 /// What the lag is.
 two_files_lag_t two_files_lag(const two_files_t *two);
+
+/// What the library says of the sensor of file `k`, 0 or 1, by its own readings; all unknown unless it was asked for.
+jcal_health_result_t two_files_health(const two_files_t *two, unsigned k);
+
+/// Adds what these say that the pairs do not show: of rates, gaps, and readings that are held.
+void two_files_health_findings(const two_files_t *two, const check_t *pairs, check_findings_t *findings);
 
 /// Adds to what there is to say of the pairs: what is wrong with the times of either file, and a lag that is not known. `reason` is what
 /// the joint says.

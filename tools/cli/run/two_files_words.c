@@ -107,6 +107,26 @@ static bool say_repeated(const two_files_t *two, unsigned k, check_findings_t *f
     return false;
 }
 
+jcal_health_result_t two_files_health(const two_files_t *two, unsigned k)
+{
+    return check_health_of(&two->files[k].recording.check, (int)k);
+}
+
+void two_files_health_findings(const two_files_t *two, const check_t *pairs, check_findings_t *findings)
+{
+    for (unsigned k = 0; k < 2u; k++) {
+        const jcal_health_result_t own = two_files_health(two, k);
+        const jcal_health_result_t paired = check_health_of(pairs, (int)k);
+        for (int f = 0; f < (int)JCAL_FINDING_COUNT; f++) {
+            sentence_t sentence;
+            if (paired.state[f] != JCAL_HEALTH_NAMED &&
+                check_health_sentence(&own, (jcal_finding_t)f, (int)k + 1, sentence)) {
+                check_say(findings, "%.80s: %.150s", short_name(two, k), sentence);
+            }
+        }
+    }
+}
+
 void two_files_findings(const two_files_t *two, jcal_reason_t reason, check_findings_t *findings)
 {
     check_findings_t own = {0};

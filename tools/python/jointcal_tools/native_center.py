@@ -24,7 +24,7 @@ class Options(ctypes.Structure):
     """jcal_batch_center_options_t of tools/native/batch_center.h."""
 
     _fields_ = [("method", ctypes.c_int32), ("derivative", ctypes.c_int32), ("smoothing_s", ctypes.c_float), ("max_bound_m", ctypes.c_float),
-                ("mismatch_m", ctypes.c_float), ("acc_noise_m_s2", ctypes.c_float), ("turn_error", ctypes.c_float),
+                ("mismatch_m", ctypes.c_float), ("rate_mismatch", ctypes.c_float), ("acc_noise_m_s2", ctypes.c_float), ("turn_error", ctypes.c_float),
                 ("acc_bias_m_s2", ctypes.c_float), ("min_rate_rad_s", ctypes.c_float), ("memory_s", ctypes.c_float),
                 ("hinge_axis1", ctypes.c_float * 3), ("hinge_axis2", ctypes.c_float * 3), ("n_max", ctypes.c_int32)]
 

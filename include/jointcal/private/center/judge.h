@@ -4,6 +4,7 @@
 #ifndef JCAL_PRIVATE_CENTER_JUDGE_H
 #define JCAL_PRIVATE_CENTER_JUDGE_H
 
+#include "jointcal/private/center/gravity.h"
 #include "jointcal/private/center/sums.h"
 
 #ifdef __cplusplus
@@ -50,6 +51,7 @@ typedef struct {
 /// What both engines work with.
 typedef struct {
     jcal_center_sums_t sums;
+    jcal_center_gravity_t gravity;
     jcal_center_verdict_t verdict;
     union {
         float moments[190];             ///< Packed 19 x 19: products of the features, before the sums begin ...

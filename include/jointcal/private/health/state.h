@@ -19,14 +19,19 @@ extern "C" {
 #define JCAL_HEALTH_PARTS 4
 /// Ways to read the rates: 48 signed permutations, then rates in deg/s, then no rates at all.
 #define JCAL_HEALTH_WAYS 50
-/// Rates before this one that are kept.
-#define JCAL_HEALTH_BEFORE 4
+/// Rates before the last one that are kept.
+#define JCAL_HEALTH_BEFORE 3
 
 /// A way to read three columns: x, y, z are `sign` times the column `column` (0, 1, 2).
 typedef struct {
     int8_t column[3];
     int8_t sign[3];
 } jcal_health_way_t;
+
+/// Squared lengths of a reading's rate and specific force.
+typedef struct {
+    float rate2, acc2;
+} jcal_health_squares_t;
 
 /// The block that is being read.
 typedef struct {
@@ -66,27 +71,46 @@ typedef struct {
     int8_t turn[JCAL_HEALTH_BLOCKS][3];  ///< Blocks of the window: turns in units of 2^exponent rad ...
     int8_t acc[JCAL_HEALTH_BLOCKS][3];   ///< ... and specific forces in units of `unit`.
     int8_t exponent;
-    uint8_t filled;                   ///< Blocks in it.
-    uint8_t way;                      ///< Way that is tried ...
-    uint8_t part;                     ///< ... and the part of the window that is next.
-    jcal_vec3_t turn_rest, acc_rest;  ///< What rounding left out so far.
+    uint8_t filled;  ///< Blocks in it.
+    uint8_t way;     ///< Way that is tried ...
+    uint8_t part;    ///< ... and the part of the window that is next.
     float unit;
-    jcal_quat_t q;                        ///< Orientation of the sensor, since the window began.
-    jcal_vec3_t mean[JCAL_HEALTH_PARTS];  ///< Sum of specific forces of each part, in the frame of the window's begin.
-    float score[JCAL_HEALTH_WAYS];        ///< Sum over windows of what a way leaves open.
-    float score_now[2];                   ///< Of this window: rates as they stand, no rates.
-    uint16_t trials;                      ///< Windows in which all ways were tried ...
-    uint16_t fits;                        ///< ... and others that rates as they stand fit.
+    union {
+        struct {
+            jcal_vec3_t turn_rest, acc_rest;  ///< What rounding left out so far.
+        } filling;
+        struct {
+            jcal_quat_t q;    ///< Orientation of the sensor, since the window began.
+            jcal_vec3_t all;  ///< Sum of specific forces of the parts so far, in the frame of the window's begin ...
+            float squares;    ///< ... and of the squares of each part's.
+            float as_is;      ///< What rates as they stand leave open.
+        } working;
+    } of;                              ///< A window that is being filled, then worked at.
+    uint16_t score[JCAL_HEALTH_WAYS];  ///< Sum over windows of what a way leaves open: jcal_health_frames_score.
+    uint16_t trials;                   ///< Windows in which all ways were tried ...
+    uint16_t fits;                     ///< ... and others that rates as they stand fit.
 } jcal_health_frames_t;
 
 /// One side of one component: where it stops.
 typedef struct {
     uint16_t level;         ///< Where its flat peaks end.
-    uint16_t peak;          ///< Of the excursion that is going on; 0: none.
-    uint16_t base;          ///< Value from which on readings near the peak are counted.
-    uint8_t top, side;      ///< Readings near that peak, and on the way down from it.
     uint8_t hits, against;  ///< Flat peaks at the level, and what speaks against a stop there.
 } jcal_health_rail_t;
+
+/// The excursion of a component that is going on.
+typedef struct {
+    uint16_t peak;
+    uint16_t base;      ///< Value from which on readings near the peak are counted.
+    uint8_t top, side;  ///< Readings near that peak, and on the way down from it.
+} jcal_health_peak_t;
+
+/// Rates x, y, z, specific forces x, y, z.
+typedef struct {
+    jcal_health_rail_t rail[6][2];  ///< Upper side, lower side.
+    jcal_health_peak_t peak[6];
+    uint8_t is_out;    ///< Bits of the components that are on an excursion ...
+    uint8_t is_lower;  ///< ... and of those whose last one was to the lower side.
+} jcal_health_rails_t;
 
 /// Values that stay, or that come more than once.
 typedef struct {
@@ -114,13 +138,15 @@ typedef struct {
     float longest_s;
     uint32_t readings, lost;
     uint16_t gaps;
+    bool has_last;  ///< There was a reading.
 } jcal_health_pace_t;
 
 /// Rates that change from reading to reading.
 typedef struct {
-    jcal_vec3_t before[JCAL_HEALTH_BEFORE];  ///< The last rates.
-    float sum2, count, length_s;             ///< Of the stretch of a tenth of a second.
-    float quiet_rad_s;  ///< Root mean square of what is fast, in the quietest tenth of the stretches.
+    jcal_vec3_t before[JCAL_HEALTH_BEFORE];  ///< The rates before the last one.
+    float sum2, count, length_s;  ///< Of the stretch of a tenth of a second: what is fast; its readings and four ...
+    float sum_rate2, sum_acc2, readings;  ///< ... rates, specific forces and readings.
+    float quiet_rad_s;                    ///< Root mean square of what is fast, in the quietest tenth of the stretches.
     float stretches;
     float rate2, acc2;  ///< Mean squares of the rate and of the specific force ...
     float fast2;        ///< ... and of what is fast in the rate.
@@ -134,7 +160,7 @@ typedef struct {
     jcal_health_block_t block;
     jcal_health_scale_t scale;
     jcal_health_frames_t frames;
-    jcal_health_rail_t rails[6][2];  ///< Rates x, y, z, specific forces x, y, z; upper side, lower side.
+    jcal_health_rails_t rails;
     jcal_health_values_t values;
     jcal_health_rest_t rest;
     jcal_health_motion_t motion;
