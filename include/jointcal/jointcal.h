@@ -22,6 +22,7 @@
 /// | what is wrong with one sensor | health.h | |
 /// | pairs of readings at common times, of two wireless sensors | pairing.h | pairing_config.h |
 /// | by how much two sensors of one joint are out of step | lag.h | |
+/// | a calibration kept while the power is off | keep.h, keep_flash.h | |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
 ///
 /// What stands in private/ is state whose size must be known at compile time; nothing there is for the user to touch.
@@ -50,6 +51,8 @@
 #include "jointcal/hinge_window.h"
 #include "jointcal/joint_angles.h"
 #include "jointcal/joint_heading.h"
+#include "jointcal/keep.h"
+#include "jointcal/keep_flash.h"
 #include "jointcal/lag.h"
 #include "jointcal/leg.h"
 #include "jointcal/orientation.h"
