@@ -23,6 +23,7 @@
 /// | pairs of readings at common times, of two wireless sensors | pairing.h | pairing_config.h |
 /// | by how much two sensors of one joint are out of step | lag.h | |
 /// | a calibration kept while the power is off | keep.h, keep_flash.h | |
+/// | whether a kept calibration still holds | remember.h | |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
 ///
 /// What stands in private/ is state whose size must be known at compile time; nothing there is for the user to touch.
@@ -59,6 +60,7 @@
 #include "jointcal/packet.h"
 #include "jointcal/pairing.h"
 #include "jointcal/quat.h"
+#include "jointcal/remember.h"
 #include "jointcal/sensor.h"
 #include "jointcal/status.h"
 #include "jointcal/tick.h"

@@ -90,6 +90,9 @@ typedef enum {
     JCAL_KEPT_OTHER_SENSORS = 5   ///< Found with other sensors, or with the same ones exchanged.
 } jcal_kept_refusal_t;
 
+/// True if all values are ones that a record has: the ranges above, unit axes and quaternions, numbers that are finite. False for null.
+bool jcal_kept_is_valid(const jcal_kept_t *kept);
+
 /// Writes a record.
 ///
 /// Errors:   JCAL_ERR_ARG: null, or a value that decode would refuse; bytes untouched.

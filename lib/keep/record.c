@@ -96,8 +96,11 @@ static bool has_valid_frames(const jcal_kept_t *kept)
     return !kept->has_zero || (is_quat(kept->frames.q_b1_s1) && is_quat(kept->frames.q_b2_s2));
 }
 
-static bool is_valid(const jcal_kept_t *kept)
+bool jcal_kept_is_valid(const jcal_kept_t *kept)
 {
+    if (kept == NULL) {
+        return false;
+    }
     const bool has_levers = !kept->has_levers || (is_lever(kept->lever1_m) && is_lever(kept->lever2_m) &&
                                                   is_bound(kept->bound_lever1_m, JCAL_BOUND_UNKNOWN_M) &&
                                                   is_bound(kept->bound_lever2_m, JCAL_BOUND_UNKNOWN_M));
@@ -140,7 +143,7 @@ static void put_levers(const jcal_kept_t *kept, uint8_t *bytes)
 
 jcal_status_t jcal_kept_encode(const jcal_kept_t *kept, uint8_t bytes[JCAL_KEPT_BYTES])
 {
-    if ((kept == NULL) || (bytes == NULL) || !is_valid(kept)) {
+    if ((bytes == NULL) || !jcal_kept_is_valid(kept)) {
         return JCAL_ERR_ARG;
     }
     for (unsigned i = 0u; i < JCAL_KEPT_BYTES; ++i) {
