@@ -33,6 +33,13 @@ static const float LONG_S[KINDS] = {4.8f, 1.1f, 1.8f};
 /// Least mean squares per direction: 4 deg, 1 % of the rate, 14 mm/s.
 static const float LEAST[KINDS] = {4.8739e-3f, 1e-4f, 1.96e-4f};
 
+/// How far kept levers may be off, m: what that leaves of the centre's motion is not held against them.
+#define RIGID_LEVER_M 0.015f
+#define FUNCTIONAL_LEVER_M 0.03f
+
+/// Noise of the centre's velocity, squared, (m/s)^2, likewise.
+#define SPEED_NOISE2 6e-4f
+
 /// True if residuals of a kind count.
 static bool counts(const jcal_remember_t *self, size_t kind)
 {
@@ -143,8 +150,15 @@ static void solve(jcal_remember_t *self, const jcal_remember_system_t *system)
     self->sigma2_rad = widest(inverse[2][2], inverse[2][3], inverse[3][3]);
 }
 
+/// Variance of the angle of bending in the block, rad^2 s. The columns across the axis are turned against each other by that angle.
+static float bend2_of(const jcal_remember_sums_t *block, jcal_plane_t heading)
+{
+    const jcal_plane_t mean = jcal_remember_bend(block, heading);
+    return jcal_max(2.0f * (block->motion_s - jcal_plane_norm(mean)), 0.0f);
+}
+
 /// The open block becomes part of the past.
-static void close(jcal_remember_t *self, const jcal_remember_system_t *system, const float cost[KINDS])
+static void close(jcal_remember_t *self, const jcal_remember_system_t *system, const float cost[KINDS], float bend2)
 {
     jcal_remember_past_t *const past = &self->past;
     for (size_t i = 0u; i < JCAL_SYM_SIZE(TILTS); ++i) {
@@ -156,9 +170,10 @@ static void close(jcal_remember_t *self, const jcal_remember_system_t *system, c
     for (size_t kind = 0u; kind < KINDS; ++kind) {
         past->cost[kind] = cost[kind];
     }
+    past->gain += self->block.gain;
     past->power += self->block.power;
     past->motion_s += self->block.motion_s;
-    past->bend2 += self->block.bend2;
+    past->bend2 += bend2;
     past->evidence = self->evidence;
     self->block = (jcal_remember_sums_t){0};
 }
@@ -172,6 +187,7 @@ void jcal_remember_look_axes(jcal_remember_t *self, bool closes)
     float cost[KINDS];
     float weight[KINDS];
     jcal_remember_system_t system;
+    const float bend2 = bend2_of(block, heading);
     jcal_remember_costs(block, heading, 1.0f, cost);
     for (size_t kind = 0u; kind < KINDS; ++kind) {
         cost[kind] += self->past.cost[kind];
@@ -181,11 +197,14 @@ void jcal_remember_look_axes(jcal_remember_t *self, bool closes)
     if (self->has_axes) {
         solve(self, &system);
     }
-    self->lack = (power > 0.0f) ? (cost[JCAL_REMEMBER_LEVER] / power) : 0.0f;
+    const float lever = (self->kept.model == JCAL_MODEL_RIGID) ? RIGID_LEVER_M : FUNCTIONAL_LEVER_M;
+    const float spare = lever * lever * (1.0f / 3.0f) * (self->past.gain + block->gain);
+    const float noise = SPEED_NOISE2 * motion_s;
+    self->lack = (power > 0.0f) ? (jcal_max(cost[JCAL_REMEMBER_LEVER] - spare - noise, 0.0f) / power) : 0.0f;
     self->speed_m_s = sqrtf(power / motion_s);
-    self->bend_rad_s = sqrtf((self->past.bend2 + block->bend2) / motion_s);
+    self->bend_rad = sqrtf((self->past.bend2 + bend2) / motion_s);
     self->motion_s = motion_s;
     if (closes) {
-        close(self, &system, cost);
+        close(self, &system, cost, bend2);
     }
 }

@@ -24,9 +24,9 @@
 #define BLOCK_S 5.0f
 #define PAST_MAX_S 30.0f
 
-/// Motion before anything is said, s; rate of bending, rms, rad/s; speed of the centre, both sides, m/s.
+/// Motion before anything is said, s; bending within 5 s, rms, rad; speed of the centre, both sides, m/s.
 #define MOTION_MIN_S 2.0f
-#define BEND_MIN_RAD_S 0.3f
+#define BEND_MIN_RAD (10.0f * JCAL_RAD_PER_DEG)
 #define SPEED_MIN_M_S 0.06f
 /// How many standard deviations count.
 #define SIGMAS 0.5f
@@ -146,7 +146,7 @@ static jcal_remember_reason_t against(const jcal_remember_t *self)
     if (self->evidence < EVIDENCE_OFF) {
         return JCAL_REMEMBER_SENSE;
     }
-    return ((self->bend_rad_s >= BEND_MIN_RAD_S) && (off > most)) ? JCAL_REMEMBER_AXES : JCAL_REMEMBER_NONE;
+    return ((self->bend_rad >= BEND_MIN_RAD) && (off > most)) ? JCAL_REMEMBER_AXES : JCAL_REMEMBER_NONE;
 }
 
 /// What is missing until it is confirmed, or nothing. Exchanged sensors are told by the levers alone, so nothing is confirmed without.
@@ -155,7 +155,7 @@ static jcal_remember_reason_t missing(const jcal_remember_t *self)
     const float most = (self->kept.model == JCAL_MODEL_RIGID) ? RIGID_MAX_RAD : FUNCTIONAL_MAX_RAD;
     const float off =
         jcal_max(self->off1_rad + (SIGMAS * self->sigma1_rad), self->off2_rad + (SIGMAS * self->sigma2_rad));
-    if ((self->motion_s < MOTION_MIN_S) || (self->has_axes && (self->bend_rad_s < BEND_MIN_RAD_S))) {
+    if ((self->motion_s < MOTION_MIN_S) || (self->has_axes && (self->bend_rad < BEND_MIN_RAD))) {
         return JCAL_REMEMBER_NO_MOTION;
     }
     if (!self->has_levers || !(self->speed_m_s >= SPEED_MIN_M_S) || !(self->lack <= LACK_MAX)) {

@@ -71,8 +71,15 @@ static void add_axes(jcal_remember_t *self, const jcal_tick_t *tick1, const jcal
     add_coupling(sums->rate_coupling, b, weights->spin);
     add_own(sums->rate1, a, weights->spin);
     add_own(sums->rate2, b, weights->spin);
-    const float bend = jcal_vec3_dot(tick2->gyr, self->e2[AXIS]) - jcal_vec3_dot(tick1->gyr, self->e1[AXIS]);
-    sums->bend2 += weights->motion_s * bend * bend;
+}
+
+static float squares(const float *m)
+{
+    float sum = 0.0f;
+    for (size_t i = 0u; i < 9u; ++i) {
+        sum += m[i] * m[i];
+    }
+    return sum;
 }
 
 static void add_levers(jcal_remember_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2, float motion_s)
@@ -83,6 +90,7 @@ static void add_levers(jcal_remember_t *self, const jcal_tick_t *tick1, const jc
     sums->lever[0] += motion_s * ((y1.x * y2.x) + (y1.y * y2.y));
     sums->lever[1] += motion_s * ((y1.y * y2.x) - (y1.x * y2.y));
     sums->lever[2] += motion_s * (y1.z * y2.z);
+    sums->gain += motion_s * (squares(tick1->lever) + squares(tick2->lever));
     sums->power += motion_s * (jcal_vec3_dot(y1, y1) + jcal_vec3_dot(y2, y2));
 }
 
@@ -138,6 +146,14 @@ void jcal_remember_slope(const jcal_remember_sums_t *sums, jcal_plane_t heading,
     slope[1] = (weight[JCAL_REMEMBER_TURN] * curve_of(&sums->turn, AXIS_AXIS, heading)) +
                (weight[JCAL_REMEMBER_RATE] * curve_of(&sums->rate, AXIS_AXIS, heading)) +
                (weight[JCAL_REMEMBER_LEVER] * lever2);
+}
+
+jcal_plane_t jcal_remember_bend(const jcal_remember_sums_t *sums, jcal_plane_t heading)
+{
+    const jcal_remember_products_t *const p = &sums->turn;
+    const jcal_plane_t out = {0.5f * (turned(p, 0u, heading) + turned(p, 4u, heading)),
+                              0.5f * (turned(p, 3u, heading) - turned(p, 1u, heading))};
+    return out;
 }
 
 /// One of turn and rate, with the products of each sensor's own columns.

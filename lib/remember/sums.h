@@ -37,6 +37,9 @@ void jcal_remember_sums_add(jcal_remember_t *self, const jcal_tick_t *tick1, con
 void jcal_remember_costs(const jcal_remember_sums_t *sums, jcal_plane_t heading, float pairing,
                          float cost[JCAL_REMEMBER_KINDS]);
 
+/// Sum of exp(i angle of bending), the angle from some zero; shorter where the axes do not agree. Cost: 16 multiply-adds.
+jcal_plane_t jcal_remember_bend(const jcal_remember_sums_t *sums, jcal_plane_t heading);
+
 /// First and second derivative of half the cost, kinds weighed by `weight`, by the heading.
 void jcal_remember_slope(const jcal_remember_sums_t *sums, jcal_plane_t heading,
                          const float weight[JCAL_REMEMBER_KINDS], float slope[2]);

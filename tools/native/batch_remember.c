@@ -52,7 +52,7 @@ static void write_row(const jcal_remember_t *self, float row[static JCAL_BATCH_R
     const float all[JCAL_BATCH_REMEMBER_COLUMNS] = {
         (float)result.state, (float)result.reason, result.bound1_rad, result.bound2_rad, result.motion_s,
         self->off1_rad,      self->off2_rad,       self->sigma1_rad,  self->sigma2_rad,  self->lack,
-        self->speed_m_s,     self->evidence,       self->bend_rad_s};
+        self->speed_m_s,     self->evidence,       self->bend_rad};
     memcpy(row, all, sizeof(all));
 }
 

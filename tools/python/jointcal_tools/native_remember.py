@@ -41,7 +41,7 @@ class Track:
     lack: np.ndarray
     speed_m_s: np.ndarray
     evidence: np.ndarray
-    bend_rad_s: np.ndarray
+    bend_rad: np.ndarray
 
 
 def rows_of(ticks: Ticks, count: int) -> np.ndarray:

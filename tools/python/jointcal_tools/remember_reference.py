@@ -25,6 +25,8 @@ RATE_SMOOTHING_S = 0.1
 HEADINGS = 24  # that are tried
 LONG_S = {"turn": 4.8, "rate": 1.1, "lever": 1.8}  # how long a residual of each kind lasts
 LEAST = {"turn": np.radians(4.0) ** 2, "rate": 0.01**2, "lever": 0.014**2}  # of its mean square per direction
+LEVER_M = (0.015, 0.03)  # how far kept levers may be off, rigid and functional
+SPEED_NOISE2 = 6e-4  # of the centre's velocity, (m/s)^2
 TIES = 0.005  # damping of the step
 STEPS = 3  # of Newton for the heading
 
@@ -50,7 +52,7 @@ class Look:
     lack: float  # what is left of the centre's motion, share
     speed2: float  # mean square of the centre's velocity, both sides
     evidence: float  # for the pairing of signs
-    bend_rad: float  # rate of bending, rms
+    bend_rad: float  # bending within a block, rms
     sizes: dict[str, float]
 
 
@@ -83,8 +85,8 @@ class Sums:
     rate1: np.ndarray | float = 0.0  # (3, 3)
     rate2: np.ndarray | float = 0.0
     lever: np.ndarray | float = 0.0  # (3,) parts
+    gain: float = 0.0  # |B1|^2 + |B2|^2
     power: float = 0.0  # y1^2 + y2^2
-    bend2: float = 0.0
 
 
 def add(sums: Sums, one: Sums) -> None:
@@ -120,9 +122,8 @@ def tick_sums(ticks1: Ticks, ticks2: Ticks, kept: Kept, begin: int = 0) -> list[
     turn_k, rate_k = coupling(b, w), coupling(q, wr)
     rate1, rate2 = np.einsum("n,nik,nil->nkl", wr, p, p), np.einsum("n,nik,nil->nkl", wr, q, q)
     power = w * ((y1**2).sum(axis=1) + (y2**2).sum(axis=1))
-    l1, l2 = w1 @ kept.axis1, w2 @ kept.axis2
-    bend2 = w * (l2 - l1) ** 2
-    return [Sums(w[n], turn[n], turn_k[n], rate[n], rate_k[n], rate1[n], rate2[n], lever[n], power[n], bend2[n])
+    gain = w * ((ticks1.lever**2).sum(axis=(1, 2)) + (ticks2.lever**2).sum(axis=(1, 2)))
+    return [Sums(w[n], turn[n], turn_k[n], rate[n], rate_k[n], rate1[n], rate2[n], lever[n], gain[n], power[n])
             for n in range(len(w))]
 
 
@@ -191,12 +192,18 @@ def system(sums: Sums, heading: float, lam: dict[str, float]) -> tuple[np.ndarra
     return h[:4, :4], g[:4]
 
 
+def bending(sums: Sums, heading: float) -> float:
+    """Variance of the angle of bending times the motion, rad^2 s."""
+    m = at(sums.turn, heading)[0]
+    return max(2.0 * (sums.w - 0.5 * np.hypot(m[0, 0] + m[1, 1], m[1, 0] - m[0, 1])), 0.0)
+
+
 def look_at(ticks1: Ticks, ticks2: Ticks, kept: Kept, begin: int = 0, most_s: float = 60.0) -> Iterator[Look]:
     """Looks at the ticks from number `begin` on, as long as motion is below `most_s`."""
     has_levers = kept.r1 is not None
     block, block_s = Sums(), 0.0
     h_past, g_past, evidence_past = np.zeros((4, 4)), np.zeros(4), 0.0
-    past = {"w": 0.0, "turn": 0.0, "rate": 0.0, "lever": 0.0, "power": 0.0, "bend2": 0.0}
+    past = {"w": 0.0, "turn": 0.0, "rate": 0.0, "lever": 0.0, "gain": 0.0, "power": 0.0, "bend2": 0.0}
     n = min(len(ticks1.t_s), len(ticks2.t_s))
     settled = np.minimum(ticks1.since_s[:n], ticks2.since_s[:n]) >= np.float32(SETTLED_S)
     begin = max(begin, int(np.argmax(settled)))
@@ -223,13 +230,14 @@ def look_at(ticks1: Ticks, ticks2: Ticks, kept: Kept, begin: int = 0, most_s: fl
         evidence = evidence_past + 0.5 * (other - this)
         total = h_past + h
         d, sigma = solve(total, g_past + g)
-        power = past["power"] + block.power
-        bend2 = past["bend2"] + block.bend2
-        yield Look(float(ticks1.t_s[number]), w, d, sigma, (past["lever"] + cost["lever"]) / max(power, 1e-9), power / w, evidence,
+        gain, power = past["gain"] + block.gain, past["power"] + block.power
+        spare = LEVER_M[0 if kept.rigid else 1] ** 2 / 3.0 * gain
+        bend2 = past["bend2"] + bending(block, heading)
+        yield Look(float(ticks1.t_s[number]), w, d, sigma, max(past["lever"] + cost["lever"] - spare - SPEED_NOISE2 * w, 0.0) / max(power, 1e-9), power / w, evidence,
                    float(np.sqrt(bend2 / w)), sizes)
         if closes:
             h_past, g_past, evidence_past = total, g_past + g, evidence
-            past = {"w": w, **{kind: past[kind] + cost[kind] for kind in LEAST}, "power": power, "bend2": bend2}
+            past = {"w": w, **{kind: past[kind] + cost[kind] for kind in LEAST}, "gain": gain, "power": power, "bend2": bend2}
             block, block_s = Sums(), 0.0
             if w > PAST_MAX_S:
                 h_past, g_past, evidence_past = h_past / 2.0, g_past / 2.0, evidence_past / 2.0
@@ -244,3 +252,26 @@ def solve(h: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     d, c = -np.linalg.solve(damped, g), np.linalg.inv(damped)
     off = np.degrees([np.hypot(d[0], d[1]), np.hypot(d[2], d[3])])
     return off, np.degrees(np.sqrt([np.linalg.eigvalsh(c[:2, :2])[-1], np.linalg.eigvalsh(c[2:, 2:])[-1]]))
+
+
+MOTION_MIN_S, AGREED_MIN, SIGMAS = 2.0, 3, 0.5
+BEND_MIN_RAD, SPEED_MIN_M_S = np.radians(10.0), 0.06
+MOST_DEG, OFF_DEG = (3.0, 10.0), (3.0, 6.0)  # rigid, functional: confirmed below, dropped above
+LACK_MAX, LACK_OFF, EVIDENCE_MIN, EVIDENCE_OFF = 0.12, 0.3, 1.5, -3.0
+
+
+def decide(looks: list[Look], kept: Kept) -> tuple[str, Look | None]:
+    """`confirmed`, `dropped` or `remembered`, and the look that decided."""
+    kind, agreed = (0 if kept.rigid else 1), {"confirmed": 0, "dropped": 0}
+    for look in looks:
+        if look.motion_s < MOTION_MIN_S:
+            continue
+        bends, moves = look.bend_rad >= BEND_MIN_RAD, kept.r1 is not None and np.sqrt(look.speed2) >= SPEED_MIN_M_S
+        least, most = (look.off_deg - SIGMAS * look.sigma_deg).max(), (look.off_deg + SIGMAS * look.sigma_deg).max()
+        says = {"dropped": (moves and look.lack > LACK_OFF) or look.evidence < EVIDENCE_OFF or (bends and least > OFF_DEG[kind]),
+                "confirmed": bends and moves and look.lack <= LACK_MAX and most <= MOST_DEG[kind] and look.evidence >= EVIDENCE_MIN}
+        for word in ("dropped", "confirmed"):
+            agreed[word] = agreed[word] + 1 if says[word] else 0
+            if agreed[word] >= AGREED_MIN:
+                return word, look
+    return "remembered", None

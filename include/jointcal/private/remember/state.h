@@ -30,9 +30,9 @@ typedef struct {
     float turn_coupling[2], rate_coupling[2];  ///< Of axis 2's tilts and the heading.
     float rate1[6], rate2[6];                  ///< Products of each sensor's own rates, packed.
     float lever[3];                            ///< As jcal_remember_products_t, of one column.
-    float power;                               ///< Squares of both sides of the lever residual.
-    float motion_s;                            ///< W.
-    float bend2;                               ///< Squared rate of bending.
+    float gain;      ///< Squares of both B: what levers that are off by 1 m would leave, times 3.
+    float power;     ///< Squares of both sides of the lever residual.
+    float motion_s;  ///< W.
     float time_s;
 } jcal_remember_sums_t;
 
@@ -41,7 +41,7 @@ typedef struct {
     float matrix[10];                 ///< Of the tilts (4 x 4, packed).
     float gradient[4];                ///< Half the gradient.
     float cost[JCAL_REMEMBER_KINDS];  ///< Sums of squares.
-    float power, motion_s, bend2;
+    float gain, power, motion_s, bend2;
     float evidence;  ///< For the pairing of signs.
 } jcal_remember_past_t;
 
@@ -58,7 +58,7 @@ typedef struct {
     float off1_rad, off2_rad;      ///< What the last look said: how far the axes want to be elsewhere ...
     float sigma1_rad, sigma2_rad;  ///< ... how well that is known ...
     float lack;                    ///< ... and what is left of the centre's motion.
-    float speed_m_s, bend_rad_s, motion_s;
+    float speed_m_s, bend_rad, motion_s;
     uint8_t state, reason;
     uint8_t count;               ///< Ticks since the last look.
     uint8_t slice;               ///< Next slice of the look; 0: none is due.
