@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// A remembered hinge that is fed with the ticks of a made-up one. Tests of remember/.
+#ifndef JCAL_TEST_REMEMBER_FIXTURE_H
+#define JCAL_TEST_REMEMBER_FIXTURE_H
+
+#include "jointcal/remember.h"
+#include "unit/functional/motion.h"
+
+#include <unity.h>
+
+#define TICK_US 50000u
+
+typedef struct {
+    jcal_remember_t self;
+    hinge_t hinge;
+    uint32_t next;
+    uint32_t epoch;
+    bool exchanged;
+    double until_s;  ///< Time at which run_until_decided stopped.
+} run_t;
+
+/* What an estimator would have kept of this hinge, exactly. */
+static inline jcal_kept_t kept_of(const hinge_t *hinge)
+{
+    jcal_kept_t kept;
+    memset(&kept, 0, sizeof kept);
+    kept.kind = JCAL_KEPT_HINGE;
+    kept.model = JCAL_MODEL_FUNCTIONAL;
+    kept.heading = JCAL_KEPT_HEADING_BY_CENTER;
+    kept.serial1 = 1u;
+    kept.serial2 = 2u;
+    kept.axis1 = hinge_axis(hinge, 1, 0.0);
+    kept.axis2 = hinge_axis(hinge, 2, 0.0);
+    kept.bound1_rad = 0.1f;
+    kept.bound2_rad = 0.12f;
+    kept.has_levers = true;
+    kept.lever1_m = to_vec3(hinge->r1);
+    kept.lever2_m = to_vec3(hinge->r2);
+    kept.bound_lever1_m = JCAL_BOUND_UNKNOWN_M;
+    kept.bound_lever2_m = JCAL_BOUND_UNKNOWN_M;
+    return kept;
+}
+
+static inline void run_begin(run_t *run, const hinge_t *hinge, const jcal_kept_t *kept)
+{
+    memset(run, 0, sizeof *run);
+    run->hinge = *hinge;
+    run->epoch = 1u;
+    run->next = 64u; /* sensors have run for more than 3 s */
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_remember_init(&run->self, kept, JCAL_KEPT_FITS));
+}
+
+static inline jcal_remember_result_t run_result(const run_t *run)
+{
+    jcal_remember_result_t out;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_remember_get(&run->self, &out));
+    return out;
+}
+
+static inline jcal_status_t run_tick(run_t *run)
+{
+    const double t = 0.05 * run->next;
+    const uint64_t t_us = (uint64_t)run->next * TICK_US;
+    jcal_tick_t tick1 = hinge_tick(&run->hinge, t, run->exchanged ? 2 : 1, t_us);
+    jcal_tick_t tick2 = hinge_tick(&run->hinge, t, run->exchanged ? 1 : 2, t_us);
+    tick1.epoch = run->epoch;
+    tick2.epoch = run->epoch;
+    const jcal_status_t status = jcal_remember_add(&run->self, &tick1, &tick2);
+    for (int k = 0; k < 2; ++k) {
+        (void)jcal_remember_step(&run->self);
+    }
+    ++run->next;
+    return status;
+}
+
+/* Runs until something is decided, for at most so many seconds. */
+static inline jcal_remember_result_t run_until_decided(run_t *run, double most_s)
+{
+    const uint32_t begin = run->next;
+    while ((run->next - begin) < (uint32_t)(20.0 * most_s) && run_result(run).state == JCAL_REMEMBERED) {
+        (void)run_tick(run);
+    }
+    run->until_s = 0.05 * (run->next - begin);
+    return run_result(run);
+}
+
+/* The axis turned about the x axis of its sensor's frame, or about y if it is nearly that. */
+static inline jcal_vec3_t turned_off(jcal_vec3_t axis, double angle_deg)
+{
+    double turn[9];
+    double v[3] = {axis.x, axis.y, axis.z};
+    const double u[3] = {(fabs(v[0]) < 0.7) ? 1.0 : 0.0, (fabs(v[0]) < 0.7) ? 0.0 : 1.0, 0.0};
+    double across[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+    const double norm = sqrt(across[0] * across[0] + across[1] * across[1] + across[2] * across[2]);
+    for (int i = 0; i < 3; ++i) {
+        across[i] *= angle_deg * HINGE_DEG / norm;
+    }
+    mat_turn(across, turn);
+    mat_times(turn, v, v);
+    return to_vec3(v);
+}
+
+#endif /* JCAL_TEST_REMEMBER_FIXTURE_H */
