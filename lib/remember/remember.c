@@ -24,12 +24,14 @@
 #define BLOCK_S 5.0f
 #define PAST_MAX_S 30.0f
 
-/// Motion before anything is said, s; bending within 5 s, rms, rad; speed of the centre, both sides, m/s.
+/// Motion before anything is said, s; bending within 5 s, rms, rad; speed of the centre, both sides, m/s: ten times
+/// the power of its noise.
 #define MOTION_MIN_S 2.0f
 #define BEND_MIN_RAD (10.0f * JCAL_RAD_PER_DEG)
-#define SPEED_MIN_M_S 0.06f
-/// How many standard deviations count.
+#define SPEED_MIN_M_S 0.08f
+/// How many standard deviations count for a decision, and for the bound that is said then.
 #define SIGMAS 0.5f
+#define SIGMAS_BOUND 1.0f
 /// Confirmed: an axis is elsewhere by at most this, rad, rigid and functional: what the estimators ask of an axis that is good for angles.
 #define RIGID_MAX_RAD (3.0f * JCAL_RAD_PER_DEG)
 #define FUNCTIONAL_MAX_RAD (10.0f * JCAL_RAD_PER_DEG)
@@ -292,8 +294,8 @@ jcal_status_t jcal_remember_get(const jcal_remember_t *self, jcal_remember_resul
     out->bound1_rad = JCAL_BOUND_UNKNOWN_RAD;
     out->bound2_rad = JCAL_BOUND_UNKNOWN_RAD;
     if (is_confirmed) {
-        out->bound1_rad = jcal_max(self->kept.bound1_rad, self->off1_rad + (SIGMAS * self->sigma1_rad));
-        out->bound2_rad = jcal_max(self->kept.bound2_rad, self->off2_rad + (SIGMAS * self->sigma2_rad));
+        out->bound1_rad = jcal_max(self->kept.bound1_rad, self->off1_rad + (SIGMAS_BOUND * self->sigma1_rad));
+        out->bound2_rad = jcal_max(self->kept.bound2_rad, self->off2_rad + (SIGMAS_BOUND * self->sigma2_rad));
     }
     return JCAL_OK;
 }

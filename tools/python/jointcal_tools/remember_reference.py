@@ -255,7 +255,7 @@ def solve(h: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 MOTION_MIN_S, AGREED_MIN, SIGMAS = 2.0, 3, 0.5
-BEND_MIN_RAD, SPEED_MIN_M_S = np.radians(10.0), 0.06
+BEND_MIN_RAD, SPEED_MIN_M_S = np.radians(10.0), 0.08
 MOST_DEG, OFF_DEG = (3.0, 10.0), (3.0, 6.0)  # rigid, functional: confirmed below, dropped above
 LACK_MAX, LACK_OFF, EVIDENCE_MIN, EVIDENCE_OFF = 0.12, 0.3, 1.5, -3.0
 
