@@ -261,6 +261,6 @@ jcal_kept_refusal_t jcal_kept_decode(const uint8_t bytes[JCAL_KEPT_BYTES], const
 const char *jcal_kept_refusal_string(jcal_kept_refusal_t refusal)
 {
     static const char *const WORDS[] = {"fits", "none", "damaged", "other_version", "other_kind", "other_sensors"};
-    const bool is_known = ((int)refusal >= 0) && ((size_t)refusal < (sizeof(WORDS) / sizeof(WORDS[0])));
-    return is_known ? WORDS[refusal] : "unknown";
+    const size_t at = (size_t)(unsigned)refusal;
+    return (at < (sizeof(WORDS) / sizeof(WORDS[0]))) ? WORDS[at] : "unknown";
 }

@@ -318,6 +318,6 @@ const char *jcal_remember_reason_string(jcal_remember_reason_t reason)
 {
     static const char *const WORDS[] = {NULL,     "no_record", "other_sensors", "axes",
                                         "places", "sense",     "no_motion",     "estimate"};
-    const bool is_known = ((int)reason >= 0) && ((size_t)reason < (sizeof(WORDS) / sizeof(WORDS[0])));
-    return is_known ? WORDS[reason] : "unknown";
+    const size_t at = (size_t)(unsigned)reason;
+    return (at < (sizeof(WORDS) / sizeof(WORDS[0]))) ? WORDS[at] : "unknown";
 }
