@@ -58,12 +58,34 @@ static inline jcal_remember_result_t run_result(const run_t *run)
     return out;
 }
 
+#define CACHED 128u
+
+/* A tick of the hinge; the last hinge's are kept, because emulated processors take long to make them. */
+static inline jcal_tick_t tick_of(const hinge_t *hinge, uint32_t number, int which)
+{
+    static hinge_t of;
+    static jcal_tick_t made[CACHED][2];
+    static bool is_made[CACHED][2];
+    if (memcmp(&of, hinge, sizeof of) != 0) {
+        of = *hinge;
+        memset(is_made, 0, sizeof is_made);
+    }
+    const double t = 0.05 * number;
+    const uint64_t t_us = (uint64_t)number * TICK_US;
+    if (number >= CACHED) {
+        return hinge_tick(hinge, t, which, t_us);
+    }
+    if (!is_made[number][which - 1]) {
+        made[number][which - 1] = hinge_tick(hinge, t, which, t_us);
+        is_made[number][which - 1] = true;
+    }
+    return made[number][which - 1];
+}
+
 static inline jcal_status_t run_tick(run_t *run)
 {
-    const double t = 0.05 * run->next;
-    const uint64_t t_us = (uint64_t)run->next * TICK_US;
-    jcal_tick_t tick1 = hinge_tick(&run->hinge, t, run->exchanged ? 2 : 1, t_us);
-    jcal_tick_t tick2 = hinge_tick(&run->hinge, t, run->exchanged ? 1 : 2, t_us);
+    jcal_tick_t tick1 = tick_of(&run->hinge, run->next, run->exchanged ? 2 : 1);
+    jcal_tick_t tick2 = tick_of(&run->hinge, run->next, run->exchanged ? 1 : 2);
     tick1.epoch = run->epoch;
     tick2.epoch = run->epoch;
     const jcal_status_t status = jcal_remember_add(&run->self, &tick1, &tick2);

@@ -97,22 +97,22 @@ static void what_shows_too_little_is_neither(void)
     hinge.rest_s = 1e6;
     jcal_kept_t kept = kept_of(&hinge);
     run_begin(&run, &hinge, &kept);
-    jcal_remember_result_t result = run_until_decided(&run, 8.0);
+    jcal_remember_result_t result = run_until_decided(&run, 4.0);
     assert_decided(&result, JCAL_REMEMBERED, JCAL_REMEMBER_NO_MOTION);
     hinge = usual;
     hinge.swing = 0.0;
     run_begin(&run, &hinge, &kept);
-    result = run_until_decided(&run, 20.0);
+    result = run_until_decided(&run, 6.0);
     assert_decided(&result, JCAL_REMEMBERED, JCAL_REMEMBER_NO_MOTION);
-    TEST_ASSERT_TRUE(result.motion_s > 10.0f);
+    TEST_ASSERT_TRUE(result.motion_s > 4.0f);
     hinge = usual;
     hinge.lift = 0.0;
     run_begin(&run, &hinge, &kept);
-    result = run_until_decided(&run, 8.0);
+    result = run_until_decided(&run, 4.0);
     assert_decided(&result, JCAL_REMEMBERED, JCAL_REMEMBER_PLACES);
     kept.has_levers = false;
     run_begin(&run, &usual, &kept);
-    result = run_until_decided(&run, 8.0);
+    result = run_until_decided(&run, 4.0);
     assert_decided(&result, JCAL_REMEMBERED, JCAL_REMEMBER_PLACES);
 }
 
@@ -124,10 +124,10 @@ static void motion_in_one_plane_confirms_nothing(void)
     hinge.lift = 0.0;
     jcal_kept_t kept = kept_of(&hinge);
     run_begin(&run, &hinge, &kept);
-    TEST_ASSERT_EQUAL_INT(JCAL_REMEMBERED, run_until_decided(&run, 20.0).state);
+    TEST_ASSERT_EQUAL_INT(JCAL_REMEMBERED, run_until_decided(&run, 6.0).state);
     kept.axis2 = turned_off(kept.axis2, 180.0);
     run_begin(&run, &hinge, &kept);
-    TEST_ASSERT_NOT_EQUAL(JCAL_REMEMBER_CONFIRMED, run_until_decided(&run, 20.0).state);
+    TEST_ASSERT_NOT_EQUAL(JCAL_REMEMBER_CONFIRMED, run_until_decided(&run, 6.0).state);
 }
 
 static void refusals_are_dropped_at_once(void)
@@ -248,20 +248,27 @@ static void other_kinds_are_settled_or_dropped_by_their_levers(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REMEMBER_DROPPED, run_result(&run).state);
 }
 
-/* A calibration that motion never shows is judged by what came last. */
+/* What was closed is halved beyond 30 s of motion; all of it, so that what it says stays the same. */
 static void what_lies_long_back_fades(void)
 {
     hinge_t hinge = hinge_usual();
     hinge.lift = 0.0; /* so that it stays remembered */
     const jcal_kept_t kept = kept_of(&hinge);
     run_begin(&run, &hinge, &kept);
-    float most_s = 0.0f;
-    for (int k = 0; k < 1200; ++k) {
-        (void)run_tick(&run);
-        most_s = fmaxf(most_s, run_result(&run).motion_s);
+    TEST_ASSERT_EQUAL_INT(JCAL_REMEMBERED, run_until_decided(&run, 5.5).state);
+    TEST_ASSERT_TRUE(run.self.past.motion_s > 3.0f && run.self.past.motion_s < 6.0f);
+    float *const past = (float *)&run.self.past;
+    for (size_t i = 0u; i < sizeof run.self.past / sizeof(float); ++i) {
+        past[i] *= 8.0f;
     }
+    const jcal_remember_past_t before = run.self.past;
+    for (int k = 0; k < 6 && run.self.past.motion_s > 30.0f; ++k) {
+        (void)run_tick(&run);
+    }
+    TEST_ASSERT_EQUAL_FLOAT(0.5f * before.motion_s, run.self.past.motion_s);
+    TEST_ASSERT_EQUAL_FLOAT(0.5f * before.matrix[9], run.self.past.matrix[9]);
+    TEST_ASSERT_EQUAL_FLOAT(0.5f * before.evidence, run.self.past.evidence);
     TEST_ASSERT_EQUAL_INT(JCAL_REMEMBERED, run_result(&run).state);
-    TEST_ASSERT_TRUE(most_s > 25.0f && most_s < 36.0f);
 }
 
 static void null_and_words(void)
