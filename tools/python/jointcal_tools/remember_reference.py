@@ -111,8 +111,10 @@ def tick_sums(ticks1: Ticks, ticks2: Ticks, kept: Kept, begin: int = 0) -> list[
     w = dt_s * m / (m + REST_RAD2_S2)
     wr = w / (m + REST_RAD2_S2)
     a, b, p, q = ticks1.turn @ e1, ticks2.turn @ e2, ticks1.rate @ e1, ticks2.rate @ e2
-    r1, r2 = (np.zeros(3) if r is None else r for r in (kept.r1, kept.r2))
-    y1, y2 = ticks1.velocity - ticks1.lever @ r1, ticks2.velocity - ticks2.lever @ r2
+    if kept.r1 is None:
+        y1 = y2 = np.zeros_like(w1)
+    else:
+        y1, y2 = ticks1.velocity - ticks1.lever @ kept.r1, ticks2.velocity - ticks2.lever @ kept.r2
     turn, rate = parts(a, b, w), parts(p, q, wr)
     lever = parts(y1[:, :, None], y2[:, :, None], w)[:, :, 0, 0]
 
@@ -249,6 +251,10 @@ def look_at(ticks1: Ticks, ticks2: Ticks, kept: Kept, begin: int = 0, most_s: fl
 def solve(h: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """How far the axes want to go, and how well that is known, deg."""
     damped = h + TIES * np.diag(np.diag(h)) + 1e-6 * np.eye(4)
+    try:
+        np.linalg.cholesky(damped)
+    except np.linalg.LinAlgError:  # at a heading that is no minimum: nothing is known
+        return np.zeros(2), np.full(2, 90.0)
     d, c = -np.linalg.solve(damped, g), np.linalg.inv(damped)
     off = np.degrees([np.hypot(d[0], d[1]), np.hypot(d[2], d[3])])
     return off, np.degrees(np.sqrt([np.linalg.eigvalsh(c[:2, :2])[-1], np.linalg.eigvalsh(c[2:, 2:])[-1]]))
