@@ -54,20 +54,20 @@ typedef enum {
 
 /// What is kept of a joint. A field that the kind does not have is zero.
 typedef struct {
+    uint64_t serial1, serial2;  ///< Serial numbers of the sensors; they differ.
     jcal_kept_kind_t kind;
     jcal_model_t model;           ///< Which model of a hinge or of two axes found it.
     jcal_kept_heading_t heading;  ///< How the heading is to be found.
-    uint8_t joint;                ///< Place in the hub's table, 0 to JCAL_KEEP_JOINTS_MAX - 1.
     uint32_t sequence;            ///< Number of the write that it was first part of; keep_flash.h sets it.
-    uint64_t serial1, serial2;    ///< Serial numbers of the sensors; they differ.
+    uint8_t joint;                ///< Place in the hub's table, 0 to JCAL_KEEP_JOINTS_MAX - 1.
+    bool has_levers;              ///< Levers and their bounds are known.
+    bool has_zero;                ///< The user set a zero: zeros, or frames of a ball joint, are known.
 
     jcal_vec3_t axis1, axis2;  ///< Hinge, two axes: unit axes. Their signs are the pairing and the sense of the angles.
     float bound1_rad, bound2_rad;          ///< Their 95 % bounds, 0 to JCAL_BOUND_UNKNOWN_RAD.
     float flexion_bound_rad;               ///< Hinge: error that the axes make in the angle, rms.
-    bool has_levers;                       ///< What follows is known.
     jcal_vec3_t lever1_m, lever2_m;        ///< Joint to sensor, within 10 m per component.
     float bound_lever1_m, bound_lever2_m;  ///< Their bounds; JCAL_BOUND_UNKNOWN_M if none was told.
-    bool has_zero;                         ///< The user set a zero: what follows is known.
     float flexion_zero_rad,
         pronation_zero_rad;  ///< Angles by jcal_frames_hinge or _two_dof in the zero pose: `is` of jcal_frames_zero.
     jcal_joint_frames_t frames;  ///< Ball: segment frames from a pose.

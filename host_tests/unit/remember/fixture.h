@@ -60,13 +60,26 @@ static inline jcal_remember_result_t run_result(const run_t *run)
 
 #define CACHED 128u
 
+/* To the bit; it is made of nothing but doubles. */
+static inline bool is_same_hinge(const hinge_t *a, const hinge_t *b)
+{
+    uint64_t words[2][sizeof(hinge_t) / sizeof(uint64_t)];
+    memcpy(words[0], a, sizeof words[0]);
+    memcpy(words[1], b, sizeof words[1]);
+    uint64_t differs = 0u;
+    for (size_t i = 0u; i < sizeof words[0] / sizeof words[0][0]; ++i) {
+        differs |= words[0][i] ^ words[1][i];
+    }
+    return differs == 0u;
+}
+
 /* A tick of the hinge; the last hinge's are kept, because emulated processors take long to make them. */
 static inline jcal_tick_t tick_of(const hinge_t *hinge, uint32_t number, int which)
 {
     static hinge_t of;
     static jcal_tick_t made[CACHED][2];
     static bool is_made[CACHED][2];
-    if (memcmp(&of, hinge, sizeof of) != 0) {
+    if (!is_same_hinge(&of, hinge)) {
         of = *hinge;
         memset(is_made, 0, sizeof is_made);
     }

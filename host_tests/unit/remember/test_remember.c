@@ -45,13 +45,13 @@ static void the_same_sensors_are_confirmed_within_three_seconds(void)
 static void axes_that_are_elsewhere_are_dropped(void)
 {
     static const struct {
-        jcal_model_t model;
         double off1_deg, off2_deg;
+        jcal_model_t model;
         bool holds;
-    } CASES[] = {{JCAL_MODEL_RIGID, 1.0, 0.0, true},        {JCAL_MODEL_RIGID, 6.0, 0.0, false},
-                 {JCAL_MODEL_RIGID, 0.0, 6.0, false},       {JCAL_MODEL_FUNCTIONAL, 3.0, 3.0, true},
-                 {JCAL_MODEL_FUNCTIONAL, 15.0, 0.0, false}, {JCAL_MODEL_FUNCTIONAL, 0.0, 15.0, false},
-                 {JCAL_MODEL_FUNCTIONAL, 40.0, 0.0, false}, {JCAL_MODEL_FUNCTIONAL, 0.0, 70.0, false}};
+    } CASES[] = {{1.0, 0.0, JCAL_MODEL_RIGID, true},        {6.0, 0.0, JCAL_MODEL_RIGID, false},
+                 {0.0, 6.0, JCAL_MODEL_RIGID, false},       {3.0, 3.0, JCAL_MODEL_FUNCTIONAL, true},
+                 {15.0, 0.0, JCAL_MODEL_FUNCTIONAL, false}, {0.0, 15.0, JCAL_MODEL_FUNCTIONAL, false},
+                 {40.0, 0.0, JCAL_MODEL_FUNCTIONAL, false}, {0.0, 70.0, JCAL_MODEL_FUNCTIONAL, false}};
     for (unsigned i = 0u; i < sizeof CASES / sizeof CASES[0]; ++i) {
         const hinge_t hinge = hinge_usual();
         jcal_kept_t kept = kept_of(&hinge);
