@@ -79,10 +79,14 @@ static float search(const jcal_remember_t *self, float pairing, jcal_plane_t *be
     return least;
 }
 
-void jcal_remember_look_headings(jcal_remember_t *self)
+void jcal_remember_look_heading(jcal_remember_t *self)
+{
+    self->score = search(self, 1.0f, &self->heading);
+}
+
+void jcal_remember_look_pairing(jcal_remember_t *self)
 {
     jcal_plane_t other;
-    self->score = search(self, 1.0f, &self->heading);
     self->evidence = self->past.evidence + (0.5f * (search(self, -1.0f, &other) - self->score));
 }
 

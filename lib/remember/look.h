@@ -9,10 +9,13 @@
 /// Motion in the open block below which there is nothing to look at, s.
 #define JCAL_REMEMBER_BLOCK_MIN_S 0.3f
 
-/// First slice: the best heading of both pairings.
-void jcal_remember_look_headings(jcal_remember_t *self);
+/// First slice: the best heading.
+void jcal_remember_look_heading(jcal_remember_t *self);
 
-/// Second slice: what the axes want. If `closes`, the open block goes to the past and another begins.
+/// Second slice: the other pairing with its own best heading.
+void jcal_remember_look_pairing(jcal_remember_t *self);
+
+/// Third slice: what the axes want. If `closes`, the open block goes to the past and another begins.
 void jcal_remember_look_axes(jcal_remember_t *self, bool closes);
 
 #endif /* JCAL_REMEMBER_LOOK_H */

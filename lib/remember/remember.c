@@ -24,11 +24,12 @@
 #define BLOCK_S 5.0f
 #define PAST_MAX_S 30.0f
 
-/// Motion before anything is said, s; bending within 5 s, rms, rad; speed of the centre, both sides, m/s: ten times
-/// the power of its noise.
+/// Motion before anything is said, s; bending within 5 s, rms, rad.
 #define MOTION_MIN_S 2.0f
 #define BEND_MIN_RAD (10.0f * JCAL_RAD_PER_DEG)
-#define SPEED_MIN_M_S 0.08f
+/// Speed of the centre, both sides, m/s, rigid and functional: ten times the power of its noise, 20 and 24 mm/s.
+#define RIGID_SPEED_M_S 0.063f
+#define FUNCTIONAL_SPEED_M_S 0.08f
 /// How many standard deviations count for a decision, and for the bound that is said then.
 #define SIGMAS 0.5f
 #define SIGMAS_BOUND 1.0f
@@ -95,7 +96,8 @@ static void end_block(jcal_remember_t *self)
         self->block = (jcal_remember_sums_t){0};
         return;
     }
-    jcal_remember_look_headings(self);
+    jcal_remember_look_heading(self);
+    jcal_remember_look_pairing(self);
     jcal_remember_look_axes(self, true);
 }
 
@@ -133,13 +135,20 @@ jcal_status_t jcal_remember_add(jcal_remember_t *self, const jcal_tick_t *tick1,
     return JCAL_OK;
 }
 
+/// True if levers were kept and the centre moves enough for them to tell something.
+static bool moves(const jcal_remember_t *self)
+{
+    const float least = (self->kept.model == JCAL_MODEL_RIGID) ? RIGID_SPEED_M_S : FUNCTIONAL_SPEED_M_S;
+    return self->has_levers && (self->speed_m_s >= least);
+}
+
 /// What speaks against it, or nothing.
 static jcal_remember_reason_t against(const jcal_remember_t *self)
 {
     const float most = (self->kept.model == JCAL_MODEL_RIGID) ? RIGID_OFF_RAD : FUNCTIONAL_OFF_RAD;
     const float off =
         jcal_max(self->off1_rad - (SIGMAS * self->sigma1_rad), self->off2_rad - (SIGMAS * self->sigma2_rad));
-    if (self->has_levers && (self->speed_m_s >= SPEED_MIN_M_S) && (self->lack > LACK_OFF)) {
+    if (moves(self) && (self->lack > LACK_OFF)) {
         return JCAL_REMEMBER_PLACES;
     }
     if (!self->has_axes) {
@@ -160,7 +169,7 @@ static jcal_remember_reason_t missing(const jcal_remember_t *self)
     if ((self->motion_s < MOTION_MIN_S) || (self->has_axes && (self->bend_rad < BEND_MIN_RAD))) {
         return JCAL_REMEMBER_NO_MOTION;
     }
-    if (!self->has_levers || !(self->speed_m_s >= SPEED_MIN_M_S) || !(self->lack <= LACK_MAX)) {
+    if (!moves(self) || !(self->lack <= LACK_MAX)) {
         return JCAL_REMEMBER_PLACES;
     }
     if (!self->has_axes || !(off <= most)) {
@@ -218,8 +227,13 @@ jcal_status_t jcal_remember_step(jcal_remember_t *self)
         return JCAL_IDLE;
     }
     if (self->slice == 1u) {
-        jcal_remember_look_headings(self);
+        jcal_remember_look_heading(self);
         self->slice = 2u;
+        return JCAL_OK;
+    }
+    if (self->slice == 2u) {
+        jcal_remember_look_pairing(self);
+        self->slice = 3u;
         return JCAL_OK;
     }
     jcal_remember_look_axes(self, self->block.time_s >= BLOCK_S);

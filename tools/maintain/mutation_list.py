@@ -1073,11 +1073,10 @@ MUTATIONS = [
     (R_LOOK, "    self->block = (jcal_remember_sums_t){0};", "", "a closed block is counted once"),
     (R_REMEMBER, "#define SETTLED_S 3.0f", "#define SETTLED_S 0.0f", "sensors that have just begun"),
     (R_REMEMBER, "self->against_it = (no != JCAL_REMEMBER_NONE)", "self->against_it = (no == JCAL_REMEMBER_AXES)", "places and sense are reasons"),
-    (R_REMEMBER, "self->has_levers && (self->speed_m_s >= SPEED_MIN_M_S) && (self->lack > LACK_OFF)", "false", "exchanged sensors"),
-    (R_REMEMBER, "if (!self->has_levers || !(self->speed_m_s", "if (!(self->speed_m_s", "nothing is confirmed without levers"),
+    (R_REMEMBER, "moves(self) && (self->lack > LACK_OFF)", "moves(self) && (self->lack > 1000.0f)", "exchanged sensors"),
     (R_REMEMBER, "(self->has_axes && (self->bend_rad < BEND_MIN_RAD))", "false", "a stiff joint"),
     (R_REMEMBER, "(self->evidence >= EVIDENCE_MIN)", "true", "the pairing must be shown"),
-    (R_REMEMBER, "is_turned ? jcal_vec3_scale(b->axis2, -1.0f) : b->axis2", "signed_as(a->axis2, b->axis2)", "signs of a hinge turn together"),
+    (R_REMEMBER, "const bool is_turned = jcal_vec3_dot(a->axis1, b->axis1) < 0.0f;", "const bool is_turned = jcal_vec3_dot(a->axis1, b->axis1) < -2.0f;", "signs of a hinge turn together"),
     (DECAY, "p = p * (2.0f - p);\n    return", "return", "doublings of the exponential"),
 ]
 

@@ -102,7 +102,7 @@ static inline jcal_status_t run_tick(run_t *run)
     tick1.epoch = run->epoch;
     tick2.epoch = run->epoch;
     const jcal_status_t status = jcal_remember_add(&run->self, &tick1, &tick2);
-    for (int k = 0; k < 2; ++k) {
+    for (int k = 0; k < 3; ++k) {
         (void)jcal_remember_step(&run->self);
     }
     ++run->next;

@@ -41,6 +41,69 @@ static void the_same_sensors_are_confirmed_within_three_seconds(void)
     }
 }
 
+/* Bending is the spread of the joint's angle within the block; ticks weigh nearly alike while it moves all the time. */
+static void bending_is_told_in_radians(void)
+{
+    const hinge_t hinge = hinge_usual();
+    const jcal_kept_t kept = kept_of(&hinge);
+    run_begin(&run, &hinge, &kept);
+    double re = 0.0;
+    double im = 0.0;
+    for (int k = 0; k < 30; ++k) {
+        re += cos(hinge_angle(&hinge, 0.05 * run.next));
+        im += sin(hinge_angle(&hinge, 0.05 * run.next));
+        (void)run_tick(&run);
+    }
+    const double spread = sqrt(2.0 * (1.0 - sqrt(re * re + im * im) / 30.0));
+    TEST_ASSERT_TRUE(spread > 0.3);
+    TEST_ASSERT_FLOAT_WITHIN(0.1f * (float)spread, (float)spread, run.self.bend_rad);
+}
+
+/* Sensors that are named the other way round, with what is remembered of them, say the same of each axis. */
+static void names_of_sensors_do_not_matter(void)
+{
+    const hinge_t hinge = hinge_usual();
+    jcal_kept_t kept = kept_of(&hinge);
+    kept.axis1 = turned_off(kept.axis1, 7.0);
+    run_begin(&run, &hinge, &kept);
+    for (int k = 0; k < 30; ++k) {
+        (void)run_tick(&run);
+    }
+    const jcal_remember_t before = run.self;
+    jcal_kept_t other = kept;
+    other.axis1 = kept.axis2;
+    other.axis2 = kept.axis1;
+    other.lever1_m = kept.lever2_m;
+    other.lever2_m = kept.lever1_m;
+    run_begin(&run, &hinge, &other);
+    run.exchanged = true;
+    for (int k = 0; k < 30; ++k) {
+        (void)run_tick(&run);
+    }
+    TEST_ASSERT_TRUE(before.sigma1_rad > 1.1f * before.sigma2_rad || before.sigma2_rad > 1.1f * before.sigma1_rad);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, before.off1_rad, run.self.off2_rad);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, before.off2_rad, run.self.off1_rad);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, before.sigma1_rad, run.self.sigma2_rad);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, before.sigma2_rad, run.self.sigma1_rad);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, before.lack, run.self.lack);
+}
+
+/* What spoke for the other pairing before must be made up for. */
+static void the_pairing_must_be_shown(void)
+{
+    const hinge_t hinge = hinge_usual();
+    const jcal_kept_t kept = kept_of(&hinge);
+    run_begin(&run, &hinge, &kept);
+    TEST_ASSERT_EQUAL_INT(JCAL_REMEMBER_CONFIRMED, run_until_decided(&run, 4.0).state);
+    const double until_s = run.until_s;
+    const float gained = run.self.evidence;
+    run_begin(&run, &hinge, &kept);
+    run.self.past.evidence = 1.0f - gained;
+    TEST_ASSERT_EQUAL_INT(JCAL_REMEMBER_CONFIRMED, run_until_decided(&run, 8.0).state);
+    TEST_ASSERT_TRUE(run.until_s > until_s);
+    TEST_ASSERT_TRUE(run.self.evidence >= 1.5f);
+}
+
 /* The limit of a rigid hinge is 3 deg, of a functional one 10 deg; beyond 6 it is dropped. */
 static void axes_that_are_elsewhere_are_dropped(void)
 {
@@ -304,6 +367,9 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(the_same_sensors_are_confirmed_within_three_seconds);
+    RUN_TEST(bending_is_told_in_radians);
+    RUN_TEST(names_of_sensors_do_not_matter);
+    RUN_TEST(the_pairing_must_be_shown);
     RUN_TEST(axes_that_are_elsewhere_are_dropped);
     RUN_TEST(exchanged_sensors_are_dropped_by_their_places);
     RUN_TEST(a_sensor_upside_down_is_dropped);

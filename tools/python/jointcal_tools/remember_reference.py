@@ -261,7 +261,7 @@ def solve(h: np.ndarray, g: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 MOTION_MIN_S, AGREED_MIN, SIGMAS = 2.0, 3, 0.5
-BEND_MIN_RAD, SPEED_MIN_M_S = np.radians(10.0), 0.08
+BEND_MIN_RAD, SPEED_MIN_M_S = np.radians(10.0), (0.063, 0.08)
 MOST_DEG, OFF_DEG = (3.0, 10.0), (3.0, 6.0)  # rigid, functional: confirmed below, dropped above
 LACK_MAX, LACK_OFF, EVIDENCE_MIN, EVIDENCE_OFF = 0.12, 0.3, 1.5, -3.0
 
@@ -272,7 +272,7 @@ def decide(looks: list[Look], kept: Kept) -> tuple[str, Look | None]:
     for look in looks:
         if look.motion_s < MOTION_MIN_S:
             continue
-        bends, moves = look.bend_rad >= BEND_MIN_RAD, kept.r1 is not None and np.sqrt(look.speed2) >= SPEED_MIN_M_S
+        bends, moves = look.bend_rad >= BEND_MIN_RAD, kept.r1 is not None and np.sqrt(look.speed2) >= SPEED_MIN_M_S[kind]
         least, most = (look.off_deg - SIGMAS * look.sigma_deg).max(), (look.off_deg + SIGMAS * look.sigma_deg).max()
         says = {"dropped": (moves and look.lack > LACK_OFF) or look.evidence < EVIDENCE_OFF or (bends and least > OFF_DEG[kind]),
                 "confirmed": bends and moves and look.lack <= LACK_MAX and most <= MOST_DEG[kind] and look.evidence >= EVIDENCE_MIN}
