@@ -1050,7 +1050,7 @@ MUTATIONS = [
     (K_RECORD, "(kept.serial1 != wanted->serial1) || ", "", "serial number of sensor 1"),
     (K_RECORD, "(bytes[AT_VERSION] != JCAL_KEPT_VERSION)", "(bytes[AT_VERSION] < JCAL_KEPT_VERSION)", "later layouts"),
     (K_RECORD, "is_quat(kept->frames.q_b2_s2)", "is_quat(kept->frames.q_b1_s1)", "second frame"),
-    (K_SLOTS, "self->slot = (kept == 0u) ? 1u : 0u;", "self->slot = (kept == 0u) ? 0u : 1u;", "the newest image is not erased"),
+    (K_SLOTS, "const unsigned kept = newest(flash, &head);", "const unsigned kept = 1u - (newest(flash, &head) & 1u);", "the newest image is not erased"),
     (K_SLOTS, "(uint32_t)(heads[1].sequence - heads[0].sequence) < 0x80000000u;", "heads[1].sequence > heads[0].sequence;", "numbers of writes wrap"),
     (K_SLOTS, " || !reads_erased(flash, self->slot, joints)", " || (reads_erased(flash, self->slot, joints) && false)", "an erase that left something"),
     (K_SLOTS, " || !is_same(back, bytes + at, HEAD)", "", "reading back"),
