@@ -120,7 +120,7 @@ static bool is_other_zero(const jcal_kept_t *kept, const jcal_kept_t *now)
 
 static bool is_half(float now, float kept)
 {
-    return now <= (0.5f * kept);
+    return (now < kept) && (now <= (0.5f * kept)); /* none is half of zero */
 }
 
 static bool has_better_axes(const jcal_kept_t *kept, const jcal_kept_t *now)

@@ -1058,7 +1058,7 @@ MUTATIONS = [
     (K_SLOTS, "may_take(self, joint) && (carry_over", "(carry_over", "a joint that was put or dropped is not carried over"),
     (K_SCHEDULE, "(2u * self->wait_s)", "self->wait_s", "the wait doubles"),
     (K_WORTH, "is_further(kept->axis2, now->axis2, kept->bound2_rad)", "is_further(kept->axis2, now->axis2, kept->bound1_rad)", "bound of axis 2"),
-    (K_WORTH, "return now <= (0.5f * kept);", "return now <= (0.6f * kept);", "half a bound"),
+    (K_WORTH, "(now <= (0.5f * kept))", "(now <= (0.6f * kept))", "half a bound"),
     (R_SUMS, "to->im[at] += (wa.y * b[l].x) - (wa.x * b[l].y);", "to->im[at] += (wa.y * b[l].x) + (wa.x * b[l].y);", "heading in a product"),
     (R_SUMS, "to[k] += weight * ((b[k].y * b[AXIS].x) - (b[k].x * b[AXIS].y));",
      "to[k] += weight * ((b[k].y * b[AXIS].x) + (b[k].x * b[AXIS].y));", "coupling of tilt and heading"),

@@ -120,7 +120,12 @@ static void nothing_new_is_worth_nothing(void)
         TEST_ASSERT_FALSE(jcal_kept_worth(&kept[i], NULL));
         now.has_levers = true;
         now.has_zero = true;
-        TEST_ASSERT_TRUE(jcal_kept_worth(&now, &kept[i]) == false);
+        TEST_ASSERT_FALSE(jcal_kept_worth(&now, &kept[i]));
+        now = kept[i];
+        now.bound1_rad = 0.0f;
+        now.bound_lever1_m = 0.0f;
+        const jcal_kept_t exact = now;
+        TEST_ASSERT_FALSE(jcal_kept_worth(&exact, &now));
     }
 }
 
