@@ -38,10 +38,12 @@ SOON, KEPT = f"same sensors: confirmed within {SOON_S:g} s of motion", "same sen
 GONE = f"exchanged or an axis {FAR_DEG:g} deg or more off: dropped within {LATE_S:g} s of motion"
 SKIN = "skin leaves the axes of three seconds open by more than what must be told"
 KNOWN = {  # what is reached, and why not more
-    ("simulated rigid", SOON): (0.5, "2.5 s are the least; a centre that hardly moves and skin of up to 1.5 deg take longer"),
-    ("people", SOON): (0.25, SKIN), ("simulated people", SOON): (0.15, SKIN),
+    ("rig", SOON): (0.8, "2.5 s are the least; where the centre hardly moves it takes longer"),
+    ("simulated rigid", SOON): (0.45, "2.5 s are the least; a centre that hardly moves and skin of up to 1.5 deg take longer"),
+    ("simulated rigid", KEPT): (0.9, "levers that are off by more than what is allowed for, where the centre hardly moves"),
+    ("people", SOON): (0.25, SKIN), ("simulated people", SOON): (0.1, SKIN),
     ("people", KEPT): (0.9, "axes of other parts of a recording are as far off as those of a turned sensor"),
-    ("simulated people", KEPT): (0.88, "what is remembered is off by up to 6 deg already"),
+    ("simulated people", KEPT): (0.85, "what is remembered is off by up to 6 deg already"),
     ("simulated people", GONE): (0.86, "slow motion: neither confirmed nor dropped"),
 }
 JUDGED_FROM_S = 4.0  # a run with less motion shows nothing
