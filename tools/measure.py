@@ -64,6 +64,7 @@ MEASUREMENTS = {
     "sensor_health": "what one sensor's health says of faults, of good recordings, and of faults put into them",
     "lag_left": "simulated hinges whose sensor 2 is late by as much as the bound of a known lag allows",
     "pairing": "the lag of two sensors: recordings and simulated joints told a lag, unrelated pairs",
+    "remember": "kept calibrations restored on the same sensors, and on ones that sit otherwise: confirmed, dropped, or neither",
     "soak": "an hour of packets of two sensors over a bad wire: counters, times, lag and calibration beside the truth",
     "cost": "time and memory, beside qmt",
 }

@@ -22,6 +22,8 @@
 /// | what is wrong with one sensor | health.h | |
 /// | pairs of readings at common times, of two wireless sensors | pairing.h | pairing_config.h |
 /// | by how much two sensors of one joint are out of step | lag.h | |
+/// | a calibration kept while the power is off | keep.h, keep_flash.h | |
+/// | whether a kept calibration still holds | remember.h | |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
 ///
 /// What stands in private/ is state whose size must be known at compile time; nothing there is for the user to touch.
@@ -50,12 +52,15 @@
 #include "jointcal/hinge_window.h"
 #include "jointcal/joint_angles.h"
 #include "jointcal/joint_heading.h"
+#include "jointcal/keep.h"
+#include "jointcal/keep_flash.h"
 #include "jointcal/lag.h"
 #include "jointcal/leg.h"
 #include "jointcal/orientation.h"
 #include "jointcal/packet.h"
 #include "jointcal/pairing.h"
 #include "jointcal/quat.h"
+#include "jointcal/remember.h"
 #include "jointcal/sensor.h"
 #include "jointcal/status.h"
 #include "jointcal/tick.h"

@@ -22,7 +22,8 @@ typedef enum {
     JCAL_ERR_ARG = -1,      ///< A pointer is null or an argument is outside its documented range.
     JCAL_ERR_CONFIG = -2,   ///< A field of the config is not finite or outside its documented range.
     JCAL_ERR_STORAGE = -3,  ///< The storage handed over is too small or not aligned.
-    JCAL_ERR_FULL = -4      ///< push: the inbox is full because step is not called often enough.
+    JCAL_ERR_FULL = -4,     ///< push: the inbox is full because step is not called often enough.
+    JCAL_ERR_FLASH = -5     ///< The flash failed, or reads other than what was written.
 } jcal_status_t;
 
 /// What is known about the joint.

@@ -37,6 +37,8 @@ const char *jcal_status_string(jcal_status_t status)
         return "storage too small or not aligned";
     case JCAL_ERR_FULL:
         return "inbox full";
+    case JCAL_ERR_FLASH:
+        return "flash failed";
     default:
         return "unknown";
     }

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Builds and runs the fuzzers under address and undefined behaviour sanitizers: tools/maintain/fuzz.sh [RUNS [TARGET...]]
 #
-# RUNS executions of the reader (default 20000), of one sensor, its health and of packets, a tenth as many of pairing, which estimates lags, and a hundredth as many of push, joints, auto and two_axes, each of which
+# RUNS executions of the reader (default 20000), of one sensor, its health, of packets and of kept calibrations, a tenth as many of pairing, which estimates lags, and a hundredth as many of push, joints, auto and two_axes, each of which
 # pushes tens of samples into the engines of the hinge, of all other joints, or of a hinge of either kind and the functional joint alone, or of a
 # joint with two axes; of the hub's frames as many as of the reader, and then `fuzz.sh frames` with ten
 # times as many frames. Inputs that reach new code are kept in build/fuzz; host_tests/fuzz/corpus is where every run starts.
@@ -39,7 +39,7 @@ fi
 runs=${1:-20000}
 shift || true
 targets=("$@")
-((${#targets[@]} > 0)) || targets=(reader push joints auto two_axes sensor health packets pairing frame)
+((${#targets[@]} > 0)) || targets=(reader push joints auto two_axes sensor health packets pairing keep frame)
 out=build/fuzz
 mkdir -p "$out"
 

@@ -96,6 +96,14 @@ H_RAILS = "lib/health/rails.c"
 H_SCALE = "lib/health/scale.c"
 H_VALUES = "lib/health/values.c"
 H_VERDICT = "lib/health/verdict.c"
+K_BYTES = "lib/keep/bytes.h"
+K_RECORD = "lib/keep/record.c"
+K_SCHEDULE = "lib/keep/schedule.c"
+K_SLOTS = "lib/keep/slots.c"
+K_WORTH = "lib/keep/worth.c"
+R_LOOK = "lib/remember/look.c"
+R_REMEMBER = "lib/remember/remember.c"
+R_SUMS = "lib/remember/sums.c"
 P_CHIPS = "lib/packet/chips.c"
 P_ENVELOPE = "lib/packet/envelope.c"
 P_ORDER = "lib/packet/order.c"
@@ -1067,6 +1075,39 @@ MUTATIONS = [
     (H_VERDICT, "return (signs > 0) == is_even;", "return (signs > 0) != is_even;", "right-handed ways"),
     (H_VERDICT, "#define GRAVITY_SHARE 0.06f", "#define GRAVITY_SHARE 0.08f", "how far off gravity may be"),
     (H_VERDICT, "(jcal_health_frames_score(frames, JCAL_HEALTH_DEG) < (RATE_UNIT_SHARE * as_is))", "(false)", "rates in deg/s"),
+    (K_BYTES, "crc ^= bytes[i];", "crc ^= (bytes[i] & 0xFEu);", "a bit of each byte in the CRC"),
+    (K_RECORD, "return (jcal_kept_encode(kept, again) == JCAL_OK) && is_same(bytes, again);",
+     "return (jcal_kept_encode(kept, again) == JCAL_OK) || is_same(bytes, again);", "bytes that mean nothing are zero"),
+    (K_RECORD, "(kept.serial1 != wanted->serial1) || ", "", "serial number of sensor 1"),
+    (K_RECORD, "(bytes[AT_VERSION] != JCAL_KEPT_VERSION)", "(bytes[AT_VERSION] < JCAL_KEPT_VERSION)", "later layouts"),
+    (K_RECORD, "is_quat(kept->frames.q_b2_s2)", "is_quat(kept->frames.q_b1_s1)", "second frame"),
+    (K_SLOTS, "const unsigned kept = newest(flash, &head);", "const unsigned kept = 1u - (newest(flash, &head) & 1u);", "the newest image is not erased"),
+    (K_SLOTS, "(uint32_t)(heads[1].sequence - heads[0].sequence) < 0x80000000u;", "heads[1].sequence > heads[0].sequence;", "numbers of writes wrap"),
+    (K_SLOTS, " || !reads_erased(flash, self->slot, joints)", " || (reads_erased(flash, self->slot, joints) && false)", "an erase that left something"),
+    (K_SLOTS, " || !is_same(back, bytes + at, HEAD)", "", "reading back"),
+    (K_SLOTS, "(refusal == JCAL_KEPT_DAMAGED) && older.is_valid", "(refusal != JCAL_KEPT_FITS) && older.is_valid", "only damage is healed"),
+    (K_SLOTS, "may_take(self, joint) && (carry_over", "(carry_over", "a joint that was put or dropped is not carried over"),
+    (K_SCHEDULE, "(2u * self->wait_s)", "self->wait_s", "the wait doubles"),
+    (K_WORTH, "is_further(kept->axis2, now->axis2, kept->bound2_rad)", "is_further(kept->axis2, now->axis2, kept->bound1_rad)", "bound of axis 2"),
+    (K_WORTH, "(now <= (0.5f * kept))", "(now <= (0.6f * kept))", "half a bound"),
+    (R_SUMS, "to->im[at] += (wa.y * b[l].x) - (wa.x * b[l].y);", "to->im[at] += (wa.y * b[l].x) + (wa.x * b[l].y);", "heading in a product"),
+    (R_SUMS, "to[k] += weight * ((b[k].y * b[AXIS].x) - (b[k].x * b[AXIS].y));",
+     "to[k] += weight * ((b[k].y * b[AXIS].x) + (b[k].x * b[AXIS].y));", "coupling of tilt and heading"),
+    (R_SUMS, "to->matrix[jcal_sym_at(4u, k)] -= w *", "to->matrix[jcal_sym_at(4u, k)] += w *", "coupling of axis 1 and heading"),
+    (R_SUMS, "turned(p, (3u * AXIS) + k, heading));", "turned(p, (3u * k) + AXIS, heading));", "gradient of axis 2"),
+    (R_SUMS, "- (pairing * turned(&sums->turn", "- (turned(&sums->turn", "the other pairing"),
+    (R_SUMS, "system->gradient[k] -= share * system->gradient[UNKNOWNS - 1u];", "", "heading in the gradient"),
+    (R_LOOK, "self->past.evidence + (0.5f *", "self->past.evidence - (0.5f *", "sign of the evidence"),
+    (R_LOOK, "2.0f * (block->motion_s - jcal_plane_norm(mean))", "20.0f * (block->motion_s - jcal_plane_norm(mean))", "variance of the bending"),
+    (R_LOOK, "self->off2_rad = sqrtf((d[2] * d[2]) + (d[3] * d[3]));", "self->off2_rad = sqrtf((d[0] * d[0]) + (d[1] * d[1]));", "how far axis 2 is off"),
+    (R_LOOK, "widest(inverse[2][2], inverse[2][3], inverse[3][3])", "widest(inverse[0][0], inverse[2][3], inverse[1][1])", "how well axis 2 is known"),
+    (R_LOOK, "    self->block = (jcal_remember_sums_t){0};", "", "a closed block is counted once"),
+    (R_REMEMBER, "#define SETTLED_S 3.0f", "#define SETTLED_S 0.0f", "sensors that have just begun"),
+    (R_REMEMBER, "self->against_it = (no != JCAL_REMEMBER_NONE)", "self->against_it = (no == JCAL_REMEMBER_AXES)", "places and sense are reasons"),
+    (R_REMEMBER, "moves(self) && (self->lack > LACK_OFF)", "moves(self) && (self->lack > 1000.0f)", "exchanged sensors"),
+    (R_REMEMBER, "(self->has_axes && (self->bend_rad < BEND_MIN_RAD))", "false", "a stiff joint"),
+    (R_REMEMBER, "(self->evidence >= EVIDENCE_MIN)", "true", "the pairing must be shown"),
+    (R_REMEMBER, "const bool is_turned = jcal_vec3_dot(a->axis1, b->axis1) < 0.0f;", "const bool is_turned = jcal_vec3_dot(a->axis1, b->axis1) < -2.0f;", "signs of a hinge turn together"),
     (DECAY, "p = p * (2.0f - p);\n    return", "return", "doublings of the exponential"),
 ]
 

@@ -23,8 +23,8 @@ void tearDown(void)
 
 static void every_call_result_has_a_text_of_its_own(void)
 {
-    const jcal_status_t all[] = {JCAL_OK,      JCAL_REJECTED,   JCAL_IDLE,        JCAL_TICK,
-                                 JCAL_ERR_ARG, JCAL_ERR_CONFIG, JCAL_ERR_STORAGE, JCAL_ERR_FULL};
+    const jcal_status_t all[] = {JCAL_OK,         JCAL_REJECTED,    JCAL_IDLE,     JCAL_TICK,     JCAL_ERR_ARG,
+                                 JCAL_ERR_CONFIG, JCAL_ERR_STORAGE, JCAL_ERR_FULL, JCAL_ERR_FLASH};
     for (size_t i = 0; i < COUNT(all); ++i) {
         TEST_ASSERT_NOT_EQUAL(0, strcmp("unknown", jcal_status_string(all[i])));
         for (size_t k = 0; k < i; ++k) {
@@ -38,13 +38,15 @@ static void every_call_result_has_a_text_of_its_own(void)
     TEST_ASSERT_EQUAL_STRING("config field out of range", jcal_status_string(JCAL_ERR_CONFIG));
     TEST_ASSERT_EQUAL_STRING("storage too small or not aligned", jcal_status_string(JCAL_ERR_STORAGE));
     TEST_ASSERT_EQUAL_STRING("inbox full", jcal_status_string(JCAL_ERR_FULL));
+    TEST_ASSERT_EQUAL_STRING("flash failed", jcal_status_string(JCAL_ERR_FLASH));
 }
 
 static void success_is_zero_errors_are_negative_and_notices_positive(void)
 {
     TEST_ASSERT_EQUAL_INT(0, JCAL_OK);
     TEST_ASSERT_TRUE((JCAL_REJECTED > 0) && (JCAL_IDLE > 0));
-    TEST_ASSERT_TRUE((JCAL_ERR_ARG < 0) && (JCAL_ERR_CONFIG < 0) && (JCAL_ERR_STORAGE < 0) && (JCAL_ERR_FULL < 0));
+    TEST_ASSERT_TRUE((JCAL_ERR_ARG < 0) && (JCAL_ERR_CONFIG < 0) && (JCAL_ERR_STORAGE < 0) && (JCAL_ERR_FULL < 0) &&
+                     (JCAL_ERR_FLASH < 0));
 }
 
 static void calibration_and_engine_are_words_of_the_output(void)
