@@ -43,8 +43,6 @@
 #define FOLLOWS_PRIOR 3.0f
 /// Share of a residual that two numbers explain by chance, times the blocks: each has about six independent readings.
 #define BY_CHANCE 0.3f
-/// Share of the residual that acts alike, per share that it has of the rate across the axes.
-#define UNSHARED 3.0f
 /// Assumed standard deviation of the place to which the refined axes are pulled, rad.
 #define COARSE_RAD 0.05f
 /// Share of the rate across the axis that a tilt within the bound may make up for; beyond it the phase of a block is not
@@ -188,9 +186,7 @@ static float follows_motion(const jcal_hinge_refine_t *refine)
 /// - a share `rate_mismatch` of the rates of both sensors;
 /// - what a scale or a lag explains of the residual;
 /// - of the rest, where blocks scatter like what follows the motion, a share that grows with the residual beside the rate along the
-///   axis: good sensors on rigid segments leave 2 to 3 % of it, which to the most part averages out;
-/// - a share of the residual that grows with it beside the rate across the axes, which is what both sensors should see: where the
-///   residual is as large, nothing says that they see one thing.
+///   axis: good sensors on rigid segments leave 2 to 3 % of it, which to the most part averages out.
 static void find_systematic(const jcal_hinge_refine_t *refine, const jcal_hinge_config_t *cfg, float of_axis[2])
 {
     const float rates = refine->along[0] + refine->along[1] + (2.0f * refine->across);
@@ -198,10 +194,7 @@ static void find_systematic(const jcal_hinge_refine_t *refine, const jcal_hinge_
     const float follows = follows_motion(refine);
     const float left =
         follows * follows * jcal_max(refine->cost - (quiet * quiet * refine->time_s / JCAL_HINGE_UNIT_S), 0.0f);
-    const float beyond = jcal_max(refine->cost - (2.0f * refine->time_s / JCAL_HINGE_UNIT_S), 0.0f);
-    const float unshared = jcal_min(beyond / jcal_max(refine->across, 1e-20f), 1.0f);
-    const float both = (TOGETHER * cfg->rate_mismatch * cfg->rate_mismatch * rates) + explained_by_one_sensor(refine) +
-                       (UNSHARED * UNSHARED * unshared * beyond);
+    const float both = (TOGETHER * cfg->rate_mismatch * cfg->rate_mismatch * rates) + explained_by_one_sensor(refine);
     for (unsigned axis = 0u; axis < 2u; ++axis) {
         const float along = jcal_max(refine->along[axis], 1e-20f);
         const float alike = jcal_min(LEFT_ALIKE * LEFT_ALIKE * (left / along), LEFT_ALIKE_MAX * LEFT_ALIKE_MAX);

@@ -155,14 +155,11 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
     const double beside = (((met / noise) * blocks) + (3.0 * 6.0)) / (blocks + 6.0);
     const double follows = fmin(fmax((beside - 1.0) / 3.0, 0.0), 1.0);
     const double left = follows * follows * fmax(cost - (quiet * quiet * (double)r->time_s / 0.05), 0.0);
-    /* What a scale or a lag explains, but for a share by chance; and three times what is left beyond the usual, times its share
-       of the rate across. */
+    /* What a scale or a lag explains, but for a share by chance. */
     const double scale = fmax(fabs((double)r->alike.scale) - (cost / 2.0), 0.0);
     const double lag = (double)r->alike.lag;
     const double of_both = fmin((scale * scale / (double)r->across) + (lag * lag / (double)r->alike.change), cost);
     const double explained = fmax(of_both - (0.3 * cost / blocks), 0.0);
-    const double beyond = fmax(cost - (2.0 * (double)r->time_s / 0.05), 0.0);
-    const double unshared = 9.0 * beyond * fmin(beyond / (double)r->across, 1.0);
     const double rates = (double)r->along[0] + (double)r->along[1] + (2.0 * (double)r->across);
     double covariance[2][3] = {{0.0}};
     *largest = 0.0;
@@ -173,8 +170,7 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
             v[i] = vectors[i][k];
             const double along = (double)r->along[i / 2];
             const double alike = fmin(25.0 * sqrt(left / along), 1.1);
-            systematic += v[i] * v[i] *
-                          ((0.69 * mismatch * mismatch * rates) + explained + unshared + (alike * alike * left)) /
+            systematic += v[i] * v[i] * ((0.69 * mismatch * mismatch * rates) + explained + (alike * alike * left)) /
                           (3.84 + 2.15);
         }
         const double ratio = dquadratic(scatter, v) / dquadratic(all, v);
