@@ -7,7 +7,9 @@ bundled one.
 
 usage: tools/same_bits.py [--no-write]
 """
+import os
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent / "python"))
@@ -56,7 +58,9 @@ def main() -> int:
                   for name, platform in target.PLATFORMS.items() if name not in NOT_ON.get(engine, ())}
         for recording in recordings_of(*recordings):
             samples = make_samples(recording)
-            printed = {name: target.run(target.PLATFORMS[name], image, samples) for name, image in images.items()}
+            with ThreadPoolExecutor(os.cpu_count()) as pool:  # an emulator each
+                runs = pool.map(lambda item: target.run(target.PLATFORMS[item[0]], item[1], samples), images.items())
+                printed = dict(zip(images, runs, strict=True))
             same = len({of["hash"] for of in printed.values()}) == 1
             same_everywhere &= same
             lines.append(f"| {recording.stem} | {printed['host']['samples']} | {engine} | "
