@@ -320,8 +320,9 @@ def wrong(rule: str, one: Said) -> bool:
     return np.isfinite(one.ready_s) and (rule == NEVER or one.worst_deg > WRONG_DEG)
 
 
-def report_model(report: Report, name: str, outcomes: list[Outcome], pick: Callable[[Outcome], Said]) -> None:
-    rows, false_rows = [], 0
+def report_model(report: Report, name: str, outcomes: list[Outcome], pick: Callable[[Outcome], Said], known: float = 0.0) -> None:
+    """A table and its requirement. `known`: the share of false `ready` that OPEN says why; more than chance makes of it fails."""
+    rows = []
     for kind, row in ROWS.items():
         mine = [pick(o) for o in outcomes if o.kind == kind]
         if not mine:
@@ -329,7 +330,6 @@ def report_model(report: Report, name: str, outcomes: list[Outcome], pick: Calla
         ready = [one for one in mine if np.isfinite(one.ready_s)]
         false = sum(wrong(row.rule, one) for one in mine)
         covered = sum(bool((one.errors <= one.bounds).all()) for one in ready)
-        false_rows += false > 0
         reasons = ", ".join(f"{word} {count}" for word, count in Counter(one.reason for one in mine).most_common(3))
         rows.append([kind, row.rule, len(mine), len(ready), false, percent(covered, len(ready)) if row.rule == HINGE else "-",
                      number(median([one.ready_s for one in ready]), 1), number(max((one.worst_deg for one in ready), default=float("nan")), 1), reasons])
@@ -337,7 +337,8 @@ def report_model(report: Report, name: str, outcomes: list[Outcome], pick: Calla
     report.table(["fault", "rule", "runs", "ready", "false", "covered when first ready", "ready after, s, median", "worst error while ready, deg", "at the end"],
                  rows)
     count = sum(wrong(ROWS[o.kind].rule, pick(o)) for o in outcomes)
-    report.require(f"{name}: false", f"{count} of {len(outcomes)}", count == 0, OPEN if false_rows else "")
+    expected = known * len(outcomes)
+    report.require(f"{name}: false", f"{count} of {len(outcomes)}", count == 0, OPEN if count <= expected + 3.0 * np.sqrt(expected) else "")
 
 
 def report_as_it_comes(report: Report, outcomes: list[Outcome]) -> None:
@@ -358,7 +359,7 @@ def measure(settings: Settings, report: Report) -> None:
     report.text(f"Simulated hinges, {LENGTH_S:g} s each at {RATE_HZ:g} Hz if nothing else is said, motions {', '.join(MOTIONS)}. The fault is that of sensor 2 where none "
                 f"is named. False: ready with an axis more than {WRONG_DEG:g} deg off at any time, the limit that was asked for; of rows with the rule `{NEVER}` ready at "
                 "all. Covered: both axes within their bounds when it is first ready.")
-    report_model(report, "jcal_hinge_t, the rigid model", outcomes, lambda o: o.rigid)
+    report_model(report, "jcal_hinge_t, the rigid model", outcomes, lambda o: o.rigid, 0.035)
     report_as_it_comes(report, outcomes)
-    report_model(report, "jcal_hinge_auto_t, both models, for axes", outcomes, lambda o: o.both)
-    report_model(report, "jointcal hinge, the program: both models, health of both sensors, lag", outcomes, lambda o: o.program)
+    report_model(report, "jcal_hinge_auto_t, both models, for axes", outcomes, lambda o: o.both, 0.03)
+    report_model(report, "jointcal hinge, the program: both models, health of both sensors, lag", outcomes, lambda o: o.program, 0.015)
