@@ -36,7 +36,7 @@
 /// The residual that a quiet gyroscope has, rad/s, is noise. Scatter of the blocks over that of independent readings, beyond 1, at
 /// which all of the residual is taken to follow the motion, and the scatter that is assumed before blocks are many. docs/METHOD.md,
 /// section 5, says where these are from.
-#define LEFT_ALIKE 25.0f
+#define LEFT_ALIKE 30.0f
 #define LEFT_ALIKE_MAX 1.1f
 #define QUIET_RAD_S 0.005f
 #define FOLLOWS_SCATTER 3.0f

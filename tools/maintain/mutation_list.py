@@ -198,7 +198,7 @@ MUTATIONS = [
     (BOUNDS, "covariance[axis][1] += variance * part[0] * part[1];",
      "covariance[axis][1] += variance * part[0] * part[0];", "covariance of an axis"),
     (BOUNDS, "#define TOGETHER 0.69f", "#define TOGETHER 0.35f", "power of the mismatch"),
-    (BOUNDS, "#define LEFT_ALIKE 25.0f", "#define LEFT_ALIKE 12.0f", "residual that acts alike"),
+    (BOUNDS, "#define LEFT_ALIKE 30.0f", "#define LEFT_ALIKE 15.0f", "residual that acts alike"),
     (BOUNDS, "#define FOLLOWS_PRIOR 3.0f", "#define FOLLOWS_PRIOR 1.0f", "scatter assumed while blocks are few"),
     (BOUNDS, "#define BY_CHANCE 0.3f", "#define BY_CHANCE 0.6f", "what two numbers explain by chance"),
     (BOUNDS, "fabsf(alike->scale) - (0.5f * refine->cost)", "fabsf(alike->scale)", "noise in what tells of a scale"),

@@ -148,7 +148,7 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
     /* Variance along each eigenvector, summed up per axis. */
     const double pull = 10.0 + (6000.0 * noise / fmax((double)r->blocks, 1.0));
     const double mismatch = (double)self->cfg.rate_mismatch;
-    /* Of the residual beyond 5 mrad/s a share acts alike: 25 times its share of the rate along the axis, at most 1.1; as a variance.
+    /* Of the residual beyond 5 mrad/s a share acts alike: 30 times its share of the rate along the axis, at most 1.1; as a variance.
        All of it where blocks scatter four times as much as independent readings, none where they scatter no more than those; six
        blocks' weight for three times as much. */
     const double quiet = 0.005 / (double)self->cfg.gyr_noise_rad_s;
@@ -169,7 +169,7 @@ static inline void bounds_in_double(const jcal_hinge_t *self, double out[2], dou
         for (int i = 0; i < 4; ++i) {
             v[i] = vectors[i][k];
             const double along = (double)r->along[i / 2];
-            const double alike = fmin(25.0 * sqrt(left / along), 1.1);
+            const double alike = fmin(30.0 * sqrt(left / along), 1.1);
             systematic += v[i] * v[i] * ((0.69 * mismatch * mismatch * rates) + explained + (alike * alike * left)) /
                           (3.84 + 2.15);
         }
