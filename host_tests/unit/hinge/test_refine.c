@@ -220,6 +220,33 @@ static void counts_of_a_block_are_what_they_say(void)
     for (int s = 0; s < 2; ++s) {
         assert_near(along[s], got->along[s], SUM_TOL * along[s]);
     }
+    assert_near(joint, got->joint, SUM_TOL * joint);
+    assert_near(across, got->across, SUM_TOL * across);
+    assert_near(0.2, got->time_s, 0.2 * SUM_TOL);
+    const double trace = (double)(got->matrix[jcal_sym_at(0, 0)] + got->matrix[jcal_sym_at(1, 1)] +
+                                  got->matrix[jcal_sym_at(2, 2)] + got->matrix[jcal_sym_at(3, 3)]);
+    assert_near(trace, got->information, SUM_TOL * trace);
+    assert_near(trace * trace, got->information2, 2.0 * SUM_TOL * trace * trace);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.0f, jcal_hinge_refine_blocks(got));
+    for (unsigned s = 0; s < 2u; ++s) {
+        const size_t u = 2u * s;
+        const double told = (double)(got->matrix[jcal_sym_at(u, u)] + got->matrix[jcal_sym_at(u + 1u, u + 1u)]);
+        assert_near(told, got->told[s], SUM_TOL * told);
+        assert_near(told * told, got->told2[s], 2.0 * SUM_TOL * told * told);
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.0f, jcal_hinge_refine_blocks_of(got, s));
+    }
+    /* Cost of 2 units: in units of the noise of both directions. */
+    assert_near((double)got->cost / 8.0, jcal_hinge_refine_noise(got), 1e-6 * (double)got->cost);
+}
+
+static void what_a_scale_and_a_lag_explain_is_what_the_lengths_say(void)
+{
+    const motion_t motion = motion_for(3, 0.02);
+    add_one_block(&motion, 100, 1.0f, 0.0);
+    const jcal_hinge_refine_t *const got = &engine.refine;
+    dseen_t seen;
+    dlook(&block, nowhere, false, &seen);
+    const double across = 0.5 * dpower(&block, &seen);
     double scale = 0.0;
     double lag = 0.0;
     double change = 0.0;
@@ -239,23 +266,6 @@ static void counts_of_a_block_are_what_they_say(void)
     assert_near(scale, got->alike.scale, SUM_TOL * 2.0 * across); /* each of two sums to SUM_TOL */
     assert_near(lag, got->alike.lag, SUM_TOL * sqrt(across * change));
     assert_near(change, got->alike.change, SUM_TOL * change);
-    assert_near(joint, got->joint, SUM_TOL * joint);
-    assert_near(across, got->across, SUM_TOL * across);
-    assert_near(0.2, got->time_s, 0.2 * SUM_TOL);
-    const double trace = (double)(got->matrix[jcal_sym_at(0, 0)] + got->matrix[jcal_sym_at(1, 1)] +
-                                  got->matrix[jcal_sym_at(2, 2)] + got->matrix[jcal_sym_at(3, 3)]);
-    assert_near(trace, got->information, SUM_TOL * trace);
-    assert_near(trace * trace, got->information2, 2.0 * SUM_TOL * trace * trace);
-    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.0f, jcal_hinge_refine_blocks(got));
-    for (unsigned s = 0; s < 2u; ++s) {
-        const size_t u = 2u * s;
-        const double told = (double)(got->matrix[jcal_sym_at(u, u)] + got->matrix[jcal_sym_at(u + 1u, u + 1u)]);
-        assert_near(told, got->told[s], SUM_TOL * told);
-        assert_near(told * told, got->told2[s], 2.0 * SUM_TOL * told * told);
-        TEST_ASSERT_FLOAT_WITHIN(1e-5f, 1.0f, jcal_hinge_refine_blocks_of(got, s));
-    }
-    /* Cost of 2 units: in units of the noise of both directions. */
-    assert_near((double)got->cost / 8.0, jcal_hinge_refine_noise(got), 1e-6 * (double)got->cost);
 }
 
 static void costs_of_both_pairings_are_those_of_axis_2_as_it_is_and_turned_round(void)
@@ -977,6 +987,7 @@ int main(void)
     RUN_TEST(a_phase_a_little_off_is_made_up_for);
     RUN_TEST(a_block_adds_the_gauss_newton_matrix_of_the_residual_with_the_best_phase);
     RUN_TEST(counts_of_a_block_are_what_they_say);
+    RUN_TEST(what_a_scale_and_a_lag_explain_is_what_the_lengths_say);
     RUN_TEST(costs_of_both_pairings_are_those_of_axis_2_as_it_is_and_turned_round);
     RUN_TEST(sums_over_blocks_move_along_with_the_axes);
     RUN_TEST(a_step_leads_to_where_sums_pull_and_prior_balance);
