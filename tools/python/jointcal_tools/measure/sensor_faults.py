@@ -359,7 +359,7 @@ def measure(settings: Settings, report: Report) -> None:
     report.text(f"Simulated hinges, {LENGTH_S:g} s each at {RATE_HZ:g} Hz if nothing else is said, motions {', '.join(MOTIONS)}. The fault is that of sensor 2 where none "
                 f"is named. False: ready with an axis more than {WRONG_DEG:g} deg off at any time, the limit that was asked for; of rows with the rule `{NEVER}` ready at "
                 "all. Covered: both axes within their bounds when it is first ready.")
-    report_model(report, "jcal_hinge_t, the rigid model", outcomes, lambda o: o.rigid, 0.035)
+    report_model(report, "jcal_hinge_t, the rigid model", outcomes, lambda o: o.rigid, 0.026)
     report_as_it_comes(report, outcomes)
-    report_model(report, "jcal_hinge_auto_t, both models, for axes", outcomes, lambda o: o.both, 0.03)
-    report_model(report, "jointcal hinge, the program: both models, health of both sensors, lag", outcomes, lambda o: o.program, 0.015)
+    report_model(report, "jcal_hinge_auto_t, both models, for axes", outcomes, lambda o: o.both, 0.019)
+    report_model(report, "jointcal hinge, the program: both models, health of both sensors, lag", outcomes, lambda o: o.program, 0.017)
