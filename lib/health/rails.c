@@ -93,7 +93,7 @@ static uint16_t whole_of(float value, bool is_lower, bool is_gyr)
 static bool go_on_out(jcal_health_rails_t *self, unsigned k, float value)
 {
     jcal_health_peak_t *const peak = &self->peak[k];
-    const unsigned side = (self->is_lower >> k) & 1u;
+    const unsigned side = ((unsigned)self->is_lower >> k) & 1u;
     const uint16_t whole = whole_of(value, side != 0u, k < 3u);
     if (whole >= part_of(peak->peak, END_1024)) {
         go_on(peak, whole);
@@ -120,8 +120,8 @@ static void begin_out(jcal_health_rails_t *self, unsigned k, float value)
 
 static void add_component(jcal_health_rails_t *self, unsigned k, float value, float least)
 {
-    const bool was_out = ((self->is_out >> k) & 1u) != 0u;
-    const bool was_lower = ((self->is_lower >> k) & 1u) != 0u;
+    const bool was_out = (((unsigned)self->is_out >> k) & 1u) != 0u;
+    const bool was_lower = (((unsigned)self->is_lower >> k) & 1u) != 0u;
     if (was_out && go_on_out(self, k, value)) {
         return;
     }
@@ -134,7 +134,7 @@ static void add_component(jcal_health_rails_t *self, unsigned k, float value, fl
 /// Most components are below their floors most of the time.
 static inline void look_at(jcal_health_rails_t *self, unsigned k, float value, float least)
 {
-    if ((fabsf(value) >= least) || (((self->is_out >> k) & 1u) != 0u)) {
+    if ((fabsf(value) >= least) || ((((unsigned)self->is_out >> k) & 1u) != 0u)) {
         add_component(self, k, value, least);
     }
 }
