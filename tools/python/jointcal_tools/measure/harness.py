@@ -144,18 +144,24 @@ class Report:
         """None of `total` may happen."""
         self.require(text, f"{count} of {total}", count == 0 and total > 0)
 
-    def require_share(self, text: str, hits: int | Sequence[int], total: int, minimum: float) -> None:
+    def require_share(self, text: str, hits: int | Sequence[int], total: int, minimum: float,
+                      known: tuple[float, str] | None = None) -> None:
         """At least `minimum` of `total`, of each of several counts.
 
-        A quick run only fails if chance does not explain what is missing, and judges nothing if it has nothing.
+        A quick run only fails if chance does not explain what is missing, and judges nothing if it has nothing. `known`: the share that is
+        reached instead, and why: the run fails below that only.
         """
         if self.quick and total == 0:
             return
         counts = [int(hits)] if np.isscalar(hits) else [int(count) for count in hits]
-        allowed = binomial_quantile(total, minimum, 0.001) if self.quick else minimum * total
+
+        def reached(least: float) -> bool:
+            allowed = binomial_quantile(total, least, 0.001) if self.quick else least * total
+            return total > 0 and min(counts) >= allowed
+
         shares = ", ".join(percent(count, total) for count in counts)
         self.require(f"{text}, at least {100 * minimum:g} %", f"{shares} of {total}",
-                     total > 0 and min(counts) >= allowed)
+                     reached(minimum), known[1] if known and reached(known[0]) else "")
 
     def require_most(self, text: str, value: float, limit: float, unit: str = "", known: tuple[float, str] | None = None) -> None:
         """At most `limit`; NaN fails, except in a quick run. `known`: what is reached instead, and why: the run fails above that only."""
