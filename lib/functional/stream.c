@@ -127,8 +127,7 @@ jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *ti
     if (kind == JCAL_TICKS_REJECTED) {
         return JCAL_REJECTED;
     }
-    const bool is_cold = jcal_ticks_is_cold(tick1) || jcal_ticks_is_cold(tick2);
-    if ((kind == JCAL_TICKS_GO_ON) && !is_cold) {
+    if ((kind == JCAL_TICKS_GO_ON) && !jcal_ticks_are_cold(tick1, tick2)) {
         const jcal_tick_weights_t weights = jcal_ticks_weigh(&self->ticks, tick1, tick2);
         self->motion_s += weights.motion_s;
         jcal_functional_sums_add(&self->sums, tick1, tick2, &weights);

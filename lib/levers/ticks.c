@@ -68,9 +68,14 @@ jcal_tick_weights_t jcal_ticks_weigh(jcal_tick_pair_t *self, const jcal_tick_t *
     return weights;
 }
 
-bool jcal_ticks_is_cold(const jcal_tick_t *tick)
+static bool is_cold(const jcal_tick_t *tick)
 {
     return (tick->epoch > 1u) && (tick->since_s < COLD_S);
+}
+
+bool jcal_ticks_are_cold(const jcal_tick_t *tick1, const jcal_tick_t *tick2)
+{
+    return is_cold(tick1) || is_cold(tick2);
 }
 
 void jcal_ticks_forget(jcal_tick_pair_t *self)

@@ -30,9 +30,9 @@ jcal_ticks_t jcal_ticks_take(jcal_tick_pair_t *self, const jcal_tick_t *tick1, c
 /// What the pair counts, of a pair that goes on.
 jcal_tick_weights_t jcal_ticks_weigh(jcal_tick_pair_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2);
 
-/// True if the sensor's filters began after a gap, and not long ago: its inclination is still wrong by degrees. Joints leave such ticks
+/// True if the filters of either sensor began after a gap, and not long ago: its inclination is still wrong by degrees. Joints leave such ticks
 /// out. After the very first reading they do not: sensors mostly rest then, and nothing is known that could be spoilt.
-bool jcal_ticks_is_cold(const jcal_tick_t *tick);
+bool jcal_ticks_are_cold(const jcal_tick_t *tick1, const jcal_tick_t *tick2);
 
 /// A sensor has moved: times and epochs go on, how fast it moved and how gravity looked is forgotten.
 void jcal_ticks_forget(jcal_tick_pair_t *self);
