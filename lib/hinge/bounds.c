@@ -171,10 +171,9 @@ static float explained_by_one_sensor(const jcal_hinge_refine_t *refine)
 }
 
 /// How far blocks show that the residual follows the motion: 0 where they scatter as independent readings do, 1 from four times that.
-static float follows_motion(const jcal_hinge_refine_t *refine)
+/// `met`: their scatter over that of independent readings.
+static float follows_motion(float met, float blocks)
 {
-    const float blocks = jcal_hinge_refine_blocks(refine);
-    const float met = mean_scatter(refine) / jcal_hinge_refine_noise(refine);
     const float scatter = ((met * blocks) + (FOLLOWS_PRIOR * PRIOR_BLOCKS)) / (blocks + PRIOR_BLOCKS);
     return jcal_min(jcal_max((scatter - 1.0f) / FOLLOWS_SCATTER, 0.0f), 1.0f);
 }
@@ -185,13 +184,14 @@ static float follows_motion(const jcal_hinge_refine_t *refine)
 /// for such an error:
 /// - a share `rate_mismatch` of the rates of both sensors;
 /// - what a scale or a lag explains of the residual;
-/// - of the rest, where blocks scatter like what follows the motion, a share that grows with the residual beside the rate along the
+/// - of all of it, where blocks scatter (`met`, as above) like what follows the motion, a share that grows with the residual beside the rate along the
 ///   axis: good sensors on rigid segments leave 2 to 3 % of it, which to the most part averages out.
-static void find_systematic(const jcal_hinge_refine_t *refine, const jcal_hinge_config_t *cfg, float of_axis[2])
+static void find_systematic(const jcal_hinge_refine_t *refine, const jcal_hinge_config_t *cfg, float met,
+                            float of_axis[2])
 {
     const float rates = refine->along[0] + refine->along[1] + (2.0f * refine->across);
     const float quiet = QUIET_RAD_S / cfg->gyr_noise_rad_s;
-    const float follows = follows_motion(refine);
+    const float follows = follows_motion(met, jcal_hinge_refine_blocks(refine));
     const float left =
         follows * follows * jcal_max(refine->cost - (quiet * quiet * refine->time_s / JCAL_HINGE_UNIT_S), 0.0f);
     const float both = (TOGETHER * cfg->rate_mismatch * cfg->rate_mismatch * rates) + explained_by_one_sensor(refine);
@@ -219,14 +219,15 @@ bool jcal_hinge_bounds(const jcal_hinge_refine_t *refine, const jcal_hinge_momen
     if (!(refine->blocks >= BLOCKS_MIN)) {
         return false;
     }
+    const float scatter = mean_scatter(refine);
     jcal_hinge_lin_t acc;
     jcal_hinge_linearise_acc(moments, cfg, &refine->point, &acc);
-    if (!inform(refine, &acc, inflate(mean_scatter(refine), noise, blocks), &information) ||
+    if (!inform(refine, &acc, inflate(scatter, noise, blocks), &information) ||
         !jcal_eig_symmetric(information.sure, TILTS, values, vectors)) {
         return false;
     }
     float systematic[2];
-    find_systematic(refine, cfg, systematic);
+    find_systematic(refine, cfg, scatter / noise, systematic);
     float covariance[2][3] = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
     out->inflation = 0.0f;
     for (unsigned k = 0u; k < TILTS; ++k) {
