@@ -22,6 +22,7 @@
 /// | what is wrong with one sensor | health.h | |
 /// | pairs of readings at common times, of two wireless sensors | pairing.h | pairing_config.h |
 /// | by how much two sensors of one joint are out of step | lag.h | |
+/// | a whole body: wireless sensors and the joints between them | body.h | body_config.h |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
 ///
 /// What stands in private/ is state whose size must be known at compile time; nothing there is for the user to touch.
@@ -35,6 +36,7 @@
 
 #include "jointcal/ball.h"
 #include "jointcal/ball_pair.h"
+#include "jointcal/body.h"
 #include "jointcal/center.h"
 #include "jointcal/center_window.h"
 #include "jointcal/chain.h"
