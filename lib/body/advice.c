@@ -114,7 +114,10 @@ static void words_of(const jcal_body_advice_t *advice, const char **before, cons
     }
 }
 
-jcal_status_t jcal_body_sentence(const jcal_body_t *self, const jcal_body_advice_t *advice, char *text, size_t size)
+/* The text is written to, through the writer. */
+jcal_status_t jcal_body_sentence(const jcal_body_t *self, const jcal_body_advice_t *advice,
+                                 char *text, /* NOLINT(readability-non-const-parameter) */
+                                 size_t size)
 {
     if ((self == NULL) || !self->is_ready || (advice == NULL) || (text == NULL) || (size == 0u)) {
         return JCAL_ERR_ARG;

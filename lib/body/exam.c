@@ -79,7 +79,7 @@ bool jcal_body_exam_look(jcal_body_t *self)
     if ((self->round.number - exam->since) >= self->pace.examine) {
         exam->since = self->round.number;
         exam->sensor = (uint8_t)((exam->sensor + 1u) % self->table.sensor_count);
-        (void)jcal_health_init(self->table.health);
+        return jcal_health_init(self->table.health) == JCAL_OK;
     }
     return true;
 }

@@ -59,10 +59,9 @@ static void choose(jcal_body_t *self)
     jcal_body_probe_t *const probe = &self->probe;
     const unsigned joint = next_joint(self);
     const bool waits = (self->round.number - probe->since) >= rounds_of(self, AGAIN_US);
-    if (waits || !self->table.joint_states[joint].lag_known) {
+    if ((waits || !self->table.joint_states[joint].lag_known) && (jcal_lag_init(self->table.lag) == JCAL_OK)) {
         probe->joint = (uint8_t)joint;
         probe->since = self->round.number;
-        (void)jcal_lag_init(self->table.lag);
     }
 }
 
