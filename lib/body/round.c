@@ -48,6 +48,10 @@ void jcal_body_round_now(jcal_body_t *self, uint64_t now_us)
         round->origin_us = now_us - FIRST_US;
         round->has_begun = true;
         round->number = FIRST_US / self->pace.period_us;
+        self->exam.since = round->number;
+        self->exam.looked = round->number;
+        self->probe.since = round->number;
+        self->probe.looked = round->number;
     }
     const uint64_t back_us = (round->now_us + round->origin_us) - now_us;
     const bool is_back = (back_us != 0u) && (back_us <= (UINT64_MAX / 2u));
