@@ -62,6 +62,7 @@ MEASUREMENTS = {
     "two_files": "two files with clocks of their own beside the recording that they are split from",
     "sensor_health": "what one sensor's health says of faults, of good recordings, and of faults put into them",
     "pairing": "the lag of two sensors: recordings and simulated joints told a lag, unrelated pairs",
+    "body": "a whole person: sixteen sensors over a bad wire, fifteen joints: ready, errors, lags, angles, faults that are named",
     "soak": "an hour of packets of two sensors over a bad wire: counters, times, lag and calibration beside the truth",
     "cost": "time and memory, beside qmt",
 }

@@ -11,8 +11,8 @@ typedef struct {
     size_t size, length;
 } writer_t;
 
-/// How urgent what is said of a joint is; 0: nothing is to be done.
-static unsigned urgency(const jcal_head_t *head)
+/// How urgent what is said of a joint is; 0: nothing is to be done. `not_one`: it was told that it is not one joint.
+static unsigned urgency(const jcal_head_t *head, bool not_one)
 {
     if (head->status == JCAL_READY) {
         return 0u;
@@ -20,7 +20,7 @@ static unsigned urgency(const jcal_head_t *head)
     if (head->reason == JCAL_REASON_SENSOR_BAD) {
         return 3u;
     }
-    return (head->reason == JCAL_REASON_NOT_ONE_JOINT) ? 2u : 1u;
+    return not_one ? 2u : 1u;
 }
 
 jcal_status_t jcal_body_advice(const jcal_body_t *self, jcal_body_advice_t *out)
@@ -33,17 +33,24 @@ jcal_status_t jcal_body_advice(const jcal_body_t *self, jcal_body_advice_t *out)
     for (unsigned j = 0u; j < self->table.joint_count; ++j) {
         jcal_body_joint_result_t joint;
         jcal_body_report(self, j, &joint);
-        const unsigned now = urgency(&joint.head);
+        const unsigned now = urgency(&joint.head, self->table.joint_states[j].not_one);
         if (now > most) {
             const jcal_body_joint_spec_t *const spec = &self->table.joints[j];
             const bool is_first = self->table.sensor_states[spec->proximal].bad != 0u;
             most = now;
             best.joint = (uint8_t)j;
-            best.hint = (joint.head.reason == JCAL_REASON_NOT_ONE_JOINT) ? JCAL_HINT_CHECK_SENSORS : joint.head.hint;
+            best.hint = joint.head.hint;
             best.reason = joint.head.reason;
             best.sensor = JCAL_BODY_NONE;
             if (best.reason == JCAL_REASON_SENSOR_BAD) {
                 best.sensor = is_first ? spec->proximal : spec->distal;
+            } else if (now == 2u) {
+                best.hint = JCAL_HINT_CHECK_SENSORS;
+                best.reason = JCAL_REASON_NOT_ONE_JOINT;
+            } else if (best.reason == JCAL_REASON_NOT_ONE_JOINT) {
+                best.hint = JCAL_HINT_MOVE_JOINT; /* a lag that is not known yet looks the same */
+            } else {
+                /* as the joint says */
             }
         }
     }

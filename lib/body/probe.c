@@ -15,6 +15,9 @@
 #define PATIENCE_US 40000000u
 #define STILL_US 5000000u
 #define MOTION_MIN_S 1.0f
+/// After so much motion, s, a share that no lag explains says that the two sensors have no joint in common: of joints a tenth is left at most.
+#define MOTION_DENY_S 10.0f
+#define LEFT_DENY 0.3f
 /// Once all lags are known, one is looked at again after this, us.
 #define AGAIN_US 60000000u
 #define LOOK_US 250000u
@@ -109,6 +112,8 @@ static void found(jcal_body_t *self, const jcal_lag_result_t *result)
     jcal_body_joint_t *const state = &self->table.joint_states[self->probe.joint];
     const bool is_new = !state->lag_known;
     state->lag_known = true;
+    state->no_lag = false;
+    state->against = state->not_one ? state->against : 0u; /* with times as they were it said so rightly */
     state->lag_bound_s = result->bound_s;
     if (is_new) {
         jcal_body_tell_joint(self, self->probe.joint, JCAL_BODY_LAG_FOUND, 0u, state->lag_s);
@@ -135,6 +140,8 @@ bool jcal_body_probe_look(jcal_body_t *self)
     if (result.lag_known) {
         found(self, &result);
     } else if (is_still || (since >= rounds_of(self, PATIENCE_US))) {
+        self->table.joint_states[probe->joint].no_lag =
+            (result.motion_s >= MOTION_DENY_S) && (result.left >= LEFT_DENY);
         leave(self);
     } else {
         /* it goes on */

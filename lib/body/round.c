@@ -8,7 +8,9 @@
 #include "body/exam.h"
 #include "body/line.h"
 #include "body/probe.h"
+#include "math/scalar.h"
 
+#include <math.h>
 #include <stddef.h>
 
 /// The body's time of the first reading, us: early enough that no lag leads before zero, and no number is zero.
@@ -18,6 +20,9 @@
 #define BACK_US 1000000u
 #define SILENT_US 1000000u
 #define AHEAD_US 1000000u
+
+/// Filters that began at different times agree after this, s: docs/METHOD_HUB.md.
+#define SETTLED_S 3.0f
 
 /// Units of a reading without what an examination adds, of a sample or the end of a round, of a joint's ticks, of the same for the lag.
 #define READING_UNITS 1u
@@ -201,16 +206,27 @@ static const jcal_tick_t *tick_of(const jcal_body_t *self, unsigned s)
     return sensor->ticks ? jcal_sensor_tick(&sensor->stage) : NULL;
 }
 
+/// The ticks of both sensors of a joint, if both made one in this round and their filters have seen the same past, or none that counts.
+static bool ticks_of(const jcal_body_t *self, const jcal_body_joint_spec_t *joint, const jcal_tick_t *ticks[2])
+{
+    ticks[0] = tick_of(self, joint->proximal);
+    ticks[1] = tick_of(self, joint->distal);
+    if ((ticks[0] == NULL) || (ticks[1] == NULL)) {
+        return false;
+    }
+    const bool began_together = fabsf(ticks[0]->since_s - ticks[1]->since_s) < (0.5f * ticks[0]->dt_s);
+    return began_together || (jcal_min(ticks[0]->since_s, ticks[1]->since_s) >= SETTLED_S);
+}
+
 static bool add_to_joint(jcal_body_t *self, unsigned j)
 {
     const jcal_body_joint_spec_t *const joint = &self->table.joints[j];
     jcal_body_joint_t *const state = &self->table.joint_states[j];
-    const jcal_tick_t *const tick1 = tick_of(self, joint->proximal);
-    const jcal_tick_t *const tick2 = tick_of(self, joint->distal);
-    if ((tick1 == NULL) || (tick2 == NULL)) {
+    const jcal_tick_t *ticks[2];
+    if (!ticks_of(self, joint, ticks)) {
         return false;
     }
-    jcal_body_engine_add(joint, tick1, tick2);
+    jcal_body_engine_add(joint, ticks[0], ticks[1]);
     state->due = true;
     state->ticks = (uint8_t)((state->ticks < UINT8_MAX) ? (state->ticks + 1u) : UINT8_MAX);
     return true;
@@ -222,13 +238,12 @@ static unsigned add_to_lag(jcal_body_t *self)
         return SAMPLE_UNITS;
     }
     const jcal_body_joint_spec_t *const joint = &self->table.joints[self->probe.joint];
-    const jcal_tick_t *const tick1 = tick_of(self, joint->proximal);
-    const jcal_tick_t *const tick2 = tick_of(self, joint->distal);
+    const jcal_tick_t *ticks[2];
     self->probe.due = true;
-    if ((tick1 == NULL) || (tick2 == NULL)) {
+    if (!ticks_of(self, joint, ticks)) {
         return SAMPLE_UNITS;
     }
-    jcal_body_probe_add(self, tick1, tick2);
+    jcal_body_probe_add(self, ticks[0], ticks[1]);
     return LAG_UNITS;
 }
 

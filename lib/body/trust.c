@@ -10,6 +10,11 @@ void jcal_trust(const jcal_trust_t *trust, jcal_head_t *head)
         head->reason = JCAL_REASON_SENSOR_BAD;
         head->hint = JCAL_HINT_CHECK_SENSORS;
         head->weak = (trust->bad1 != 0u) ? JCAL_WEAK_AXIS1 : JCAL_WEAK_AXIS2;
+    } else if (trust->not_one) {
+        head->status = JCAL_COLLECTING;
+        head->reason = JCAL_REASON_NOT_ONE_JOINT;
+        head->hint = JCAL_HINT_CHECK_SENSORS;
+        head->weak = JCAL_WEAK_AXIS1;
     } else if (!trust->lag_known && (head->status == JCAL_READY)) {
         head->status = JCAL_COLLECTING;
         head->reason = JCAL_REASON_OUT_OF_STEP;

@@ -5,6 +5,7 @@
 /// An engine sees two sensors and takes their times and values for what they are. What is known of the sensors beside stands above it:
 ///
 ///     a sensor is named bad                      collecting, sensor_bad, check_sensors: nothing that the engine says is worth telling
+///     it was told that they share no joint       collecting, not_one_joint, check_sensors, for a minute after the engine said so last
 ///     the engine is ready, the lag not known     collecting, out_of_step, move_joint: times may be wrong by more than the bounds hold for
 ///     else                                       what the engine says
 #ifndef JCAL_BODY_TRUST_H
@@ -16,6 +17,7 @@
 /// What is known of the two sensors of a joint.
 typedef struct {
     uint16_t bad1, bad2;  ///< Findings that are named, a bit for each.
+    bool not_one;         ///< It was told that the two share no joint.
     bool lag_known;
 } jcal_trust_t;
 

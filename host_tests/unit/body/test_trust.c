@@ -31,7 +31,7 @@ static const jcal_calibration_t all[4] = {JCAL_COLLECTING, JCAL_AMBIGUOUS, JCAL_
 /* Nothing speaks against the sensors: not a bit of the head changes. */
 static void an_engine_is_believed_that_reads_good_sensors(void)
 {
-    const jcal_trust_t good = {0u, 0u, true};
+    const jcal_trust_t good = {0u, 0u, false, true};
     for (size_t k = 0u; k < 4u; ++k) {
         const jcal_head_t before = head_of(all[k]);
         jcal_head_t head = before;
@@ -42,7 +42,8 @@ static void an_engine_is_believed_that_reads_good_sensors(void)
 
 static void a_bad_sensor_stands_above_everything(void)
 {
-    const jcal_trust_t of[4] = {{1u << 4, 0u, true}, {0u, 1u << 7, true}, {0u, 1u, false}, {8u, 8u, false}};
+    const jcal_trust_t of[4] = {
+        {1u << 4, 0u, false, true}, {0u, 1u << 7, true, true}, {0u, 1u, true, false}, {8u, 8u, false, false}};
     for (size_t k = 0u; k < 4u; ++k) {
         for (size_t i = 0u; i < 4u; ++i) {
             jcal_head_t head = head_of(all[k]);
@@ -56,10 +57,24 @@ static void a_bad_sensor_stands_above_everything(void)
     }
 }
 
+static void sensors_that_share_no_joint_keep_from_ready(void)
+{
+    const jcal_trust_t of[2] = {{0u, 0u, true, true}, {0u, 0u, true, false}};
+    for (size_t k = 0u; k < 4u; ++k) {
+        for (size_t i = 0u; i < 2u; ++i) {
+            jcal_head_t head = head_of(all[k]);
+            jcal_trust(&of[i], &head);
+            TEST_ASSERT_EQUAL_INT(JCAL_COLLECTING, head.status);
+            TEST_ASSERT_EQUAL_INT(JCAL_REASON_NOT_ONE_JOINT, head.reason);
+            TEST_ASSERT_EQUAL_INT(JCAL_HINT_CHECK_SENSORS, head.hint);
+        }
+    }
+}
+
 /* What an engine lacks beside the lag is worth more to a person than the lag. */
 static void a_lag_that_is_not_known_keeps_from_ready_alone(void)
 {
-    const jcal_trust_t unknown = {0u, 0u, false};
+    const jcal_trust_t unknown = {0u, 0u, false, false};
     for (size_t k = 0u; k < 4u; ++k) {
         const jcal_head_t before = head_of(all[k]);
         jcal_head_t head = before;
@@ -104,6 +119,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(an_engine_is_believed_that_reads_good_sensors);
     RUN_TEST(a_bad_sensor_stands_above_everything);
+    RUN_TEST(sensors_that_share_no_joint_keep_from_ready);
     RUN_TEST(a_lag_that_is_not_known_keeps_from_ready_alone);
     RUN_TEST(findings_come_go_and_stay);
     return UNITY_END();

@@ -218,12 +218,16 @@ static void advice_is_for_a_person(void)
     set(1u, JCAL_COLLECTING, JCAL_REASON_UNCERTAIN, JCAL_HINT_TILT_AXIS);
     set(2u, JCAL_COLLECTING, JCAL_REASON_UNCERTAIN, JCAL_HINT_MOVE_FASTER);
     says("Move the left knee while its axis is not level, lying on the side, say.");
-    set(2u, JCAL_COLLECTING, JCAL_REASON_NOT_ONE_JOINT, JCAL_HINT_MOVE_JOINT);
+    set(2u, JCAL_COLLECTING, JCAL_REASON_NOT_ONE_JOINT, JCAL_HINT_CHECK_SENSORS);
+    says("Move the left knee while its axis is not level, lying on the side, say.");
+    f.joint_states[2].not_one = true; /* it was for long, and no lag is to blame */
     says("Check the two sensors of the joint 2: is each on its segment, and the right way in its strap?");
     f.sensor_states[2].bad = 4u;
     says("Check the sensor on the left shank: it is faulty or set up wrongly.");
     f.sensor_states[2].bad = 0u;
+    f.joint_states[2].not_one = false;
     set(1u, JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
+    says("Bend and stretch the joint 2."); /* a lag that is not known yet looks the same */
     set(2u, JCAL_READY, JCAL_REASON_NONE, JCAL_HINT_NONE);
     says("Nothing is to be done.");
 }

@@ -48,10 +48,13 @@ typedef struct {
     uint32_t probed;           ///< Round in which its lag was last looked at; 0: never.
     float lag_s, lag_bound_s;  ///< Lag of the distal sensor, what is taken off included.
     int32_t off_us;            ///< What was taken off since the engine began.
-    uint8_t status, reason;    ///< As last told: jcal_calibration_t, jcal_reason_t.
+    uint8_t status;            ///< As last told: jcal_calibration_t.
     uint8_t ticks;             ///< Ticks since it was looked at.
     bool lag_known;
-    bool due;  ///< Its engine may have a slice of work.
+    uint8_t against;  ///< Looks at which the two sensors seemed to share no joint, less those at which they did.
+    bool no_lag;      ///< No lag was found although it moved: nothing that both sensors share was seen at any.
+    bool not_one;     ///< That was told.
+    bool due;         ///< Its engine may have a slice of work.
 } jcal_body_joint_t;
 
 /// Something that happened.
