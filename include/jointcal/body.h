@@ -84,10 +84,11 @@ typedef struct {
     float uncertainty1_rad, uncertainty2_rad;  ///< 95 % bounds; a right angle while unknown.
     jcal_vec3_t joint_to_sensor1_m, joint_to_sensor2_m;
     jcal_heading_t heading;  ///< L2 to L1, now.
-    /// Hinge: its angle, while the joint is ready and both sensors tell of the same time; else NaN. functional.h has its zero.
+    /// Hinge: its angle, while the joint is ready, both sensors tell of the same time, and the heading is known, which takes some seconds after
+    /// a gap of either; else NaN. functional.h has its zero.
     float flexion_rad;
     float flexion_bound_rad;  ///< Error that the axes make in it, rms; a right angle while unknown.
-    /// Ball and two axes: sensor 2 in sensor 1, while the joint is ready and both sensors tell of the same time; else all NaN.
+    /// Ball and two axes: sensor 2 in sensor 1, as long; else all NaN.
     jcal_quat_t relative;
     float relative_bound_rad;  ///< 95 % bound of its heading; a right angle while unknown.
 } jcal_body_joint_result_t;

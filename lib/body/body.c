@@ -181,6 +181,13 @@ jcal_status_t jcal_body_event(jcal_body_t *self, jcal_body_event_t *out)
     return jcal_body_events_take(&self->events, out) ? JCAL_OK : JCAL_IDLE;
 }
 
+/// True if the stage's orientation is of the epoch from which the joint's engine took its last tick: after a gap its heading is another.
+static bool is_of_epoch(const jcal_body_sensor_t *sensor, uint32_t epoch)
+{
+    const jcal_tick_t *const tick = jcal_sensor_tick(&sensor->stage);
+    return (tick != NULL) && (tick->epoch == epoch);
+}
+
 jcal_status_t jcal_body_joint(const jcal_body_t *self, unsigned joint, jcal_body_joint_result_t *out)
 {
     if ((self == NULL) || (out == NULL) || !self->is_ready || (joint >= self->table.joint_count)) {
@@ -190,7 +197,10 @@ jcal_status_t jcal_body_joint(const jcal_body_t *self, unsigned joint, jcal_body
     const jcal_body_sensor_t *const sensor1 = &self->table.sensor_states[spec->proximal];
     const jcal_body_sensor_t *const sensor2 = &self->table.sensor_states[spec->distal];
     jcal_body_report(self, joint, out);
-    if ((out->head.status == JCAL_READY) && (sensor1->line.last == sensor2->line.last)) {
+    const jcal_body_joint_t *const state = &self->table.joint_states[joint];
+    const bool goes_on = is_of_epoch(sensor1, state->epoch1) && is_of_epoch(sensor2, state->epoch2);
+    if ((out->head.status == JCAL_READY) && (sensor1->line.last == sensor2->line.last) && goes_on &&
+        out->heading.known) {
         const jcal_quat_t q1 = jcal_sensor_orientation(&sensor1->stage);
         const jcal_quat_t q2 = jcal_sensor_orientation(&sensor2->stage);
         out->flexion_rad = jcal_body_engine_flexion(spec, q1, q2);

@@ -10,7 +10,6 @@
 #include "body/probe.h"
 #include "math/scalar.h"
 
-#include <math.h>
 #include <stddef.h>
 
 /// The body's time of the first reading, us: early enough that no lag leads before zero, and no number is zero.
@@ -21,7 +20,7 @@
 #define SILENT_US 1000000u
 #define AHEAD_US 1000000u
 
-/// Filters that began at different times agree after this, s: docs/METHOD_HUB.md.
+/// Time after which filters have forgotten what they began with, s: docs/METHOD_HUB.md.
 #define SETTLED_S 3.0f
 
 /// Units of a reading without what an examination adds, of a sample or the end of a round, of a joint's ticks, of the same for the lag.
@@ -206,16 +205,12 @@ static const jcal_tick_t *tick_of(const jcal_body_t *self, unsigned s)
     return sensor->ticks ? jcal_sensor_tick(&sensor->stage) : NULL;
 }
 
-/// The ticks of both sensors of a joint, if both made one in this round and their filters have seen the same past, or none that counts.
+/// The ticks of both sensors of a joint, if both made one in this round and the filters of both have settled.
 static bool ticks_of(const jcal_body_t *self, const jcal_body_joint_spec_t *joint, const jcal_tick_t *ticks[2])
 {
     ticks[0] = tick_of(self, joint->proximal);
     ticks[1] = tick_of(self, joint->distal);
-    if ((ticks[0] == NULL) || (ticks[1] == NULL)) {
-        return false;
-    }
-    const bool began_together = fabsf(ticks[0]->since_s - ticks[1]->since_s) < (0.5f * ticks[0]->dt_s);
-    return began_together || (jcal_min(ticks[0]->since_s, ticks[1]->since_s) >= SETTLED_S);
+    return (ticks[0] != NULL) && (ticks[1] != NULL) && (jcal_min(ticks[0]->since_s, ticks[1]->since_s) >= SETTLED_S);
 }
 
 static bool add_to_joint(jcal_body_t *self, unsigned j)
@@ -227,6 +222,8 @@ static bool add_to_joint(jcal_body_t *self, unsigned j)
         return false;
     }
     jcal_body_engine_add(joint, ticks[0], ticks[1]);
+    state->epoch1 = ticks[0]->epoch;
+    state->epoch2 = ticks[1]->epoch;
     state->due = true;
     state->ticks = (uint8_t)((state->ticks < UINT8_MAX) ? (state->ticks + 1u) : UINT8_MAX);
     return true;

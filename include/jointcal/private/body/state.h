@@ -47,6 +47,7 @@ typedef struct {
 typedef struct {
     uint32_t probed;           ///< Round in which its lag was last looked at; 0: never.
     float lag_s, lag_bound_s;  ///< Lag of the distal sensor, what is taken off included.
+    uint32_t epoch1, epoch2;   ///< Of the last ticks that its engine took.
     int32_t off_us;            ///< What was taken off since the engine began.
     uint8_t status;            ///< As last told: jcal_calibration_t.
     uint8_t ticks;             ///< Ticks since it was looked at.

@@ -17,7 +17,7 @@ from .soak import ORIGIN_US, Sent, Wire, expected, send
 
 TITLE = "Body: sixteen sensors and fifteen joints"
 LONG_S, QUICK_S = 600.0, 150.0
-PERSONS = tuple(range(11, 19))  # person 1 was looked at while this was made
+PERSONS = tuple(range(21, 29))  # persons 1 to 3 and 11 to 13 were looked at while this was made
 UNITS, EVERY = 80, 25  # units of a step of 10 ms; steps from row to row
 BITS, MOST = 16, 4
 DRIFT_PPM, BASE_S = 100.0, (0.003, 0.103)
@@ -83,11 +83,11 @@ def packets_of(sent: list[Sent]) -> Packets:
 
 
 def angle_errors_deg(flexion: np.ndarray, true: np.ndarray) -> list[float]:
-    """rms of each window that is ready throughout, its mean left out: the angle's zero is arbitrary."""
-    off = np.degrees(np.unwrap(np.where(np.isfinite(flexion), flexion, 0.0)) - true)
+    """rms of each window of which at least half is known, its mean left out: the angle's zero is arbitrary."""
+    off = np.exp(1j * (flexion - true))
     rows = round(WINDOW_S * RATE_HZ / EVERY)
-    good = [slice(k, k + rows) for k in range(0, len(off) - rows, rows) if np.isfinite(flexion[k:k + rows]).all()]
-    return [float(np.std(off[part])) for part in good]
+    parts = [off[k:k + rows][np.isfinite(flexion[k:k + rows])] for k in range(0, len(off) - rows, rows)]
+    return [float(np.degrees(np.std(np.angle(part / np.mean(part))))) for part in parts if 2 * len(part) >= rows]
 
 
 def angles_deg(rec: BodyRecording, j: int, found: Found, wires: list[Wire]) -> list[float]:
