@@ -149,24 +149,17 @@ jcal_status_t jcal_body_step(jcal_body_t *self, uint64_t now_us, unsigned units)
     }
     jcal_body_round_now(self, now_us);
     bool has_rounds = true;
-    bool has_slices = true;
     unsigned left = units;
-    while ((left >= JCAL_BODY_UNITS_MIN) && (has_rounds || has_slices)) { /* each time units go, or one of both ends */
-        const bool slice = has_slices && (self->slices_next || !has_rounds);
+    while ((left >= JCAL_BODY_UNITS_MIN) && (has_rounds || self->slices_due)) { /* units go, or one of both ends */
+        const bool slice = self->slices_due && (self->slices_next || !has_rounds);
         const unsigned took = slice ? step_slice(self) : jcal_body_round_step(self);
         self->slices_next = !slice;
-        if (took == 0u) {
-            has_slices = slice ? false : has_slices;
-            has_rounds = slice ? has_rounds : false;
-        } else if (!slice) {
-            has_slices = true;
-        } else {
-            /* there may be more */
-        }
+        self->slices_due = self->slices_due && (!slice || (took > 0u));
+        has_rounds = has_rounds && (slice || (took > 0u));
         left -= took;
     }
     self->units += units - left;
-    if (has_rounds || has_slices) {
+    if (has_rounds || self->slices_due) {
         return JCAL_OK;
     }
     jcal_body_round_listen(self);

@@ -225,6 +225,7 @@ static bool add_to_joint(jcal_body_t *self, unsigned j)
     state->epoch1 = ticks[0]->epoch;
     state->epoch2 = ticks[1]->epoch;
     state->due = true;
+    self->slices_due = true;
     state->ticks = (uint8_t)((state->ticks < UINT8_MAX) ? (state->ticks + 1u) : UINT8_MAX);
     return true;
 }
@@ -259,6 +260,7 @@ static unsigned step_add(jcal_body_t *self)
     round->at = 0u;
     round->phase = (uint8_t)TAKE;
     round->number += 1u;
+    self->slices_due = true;
     return units;
 }
 

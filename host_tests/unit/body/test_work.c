@@ -98,6 +98,7 @@ static void joints_take_turns(void)
         for (unsigned j = 0u; j < JOINTS; ++j) {
             TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_functional_add(&f.hinges[j], &tick1, &tick2));
             f.joint_states[j].due = true;
+            f.body.slices_due = true;
         }
     }
     const float credit = f.hinges[0].credit;

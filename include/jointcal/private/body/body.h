@@ -23,6 +23,7 @@ typedef struct {
     uint32_t lags_refused;  ///< Lags that would have shifted a sensor too far.
     uint64_t units;         ///< Units of work so far.
     uint8_t next;           ///< Joint whose slice is next.
+    bool slices_due;        ///< A joint, the lag or an examination may have work.
     bool slices_next;       ///< A slice is next, else the round.
     bool is_ready;          ///< False: never prepared.
 } jcal_body_t;
