@@ -13,8 +13,8 @@
 #define TOLD_MOST 240u
 #define TOLD_STEP 12u
 
-/// Tells that the two sensors share no joint, once the engine has said so for long, and no lag is to blame: it is known, or no lag at all
-/// explains the motion.
+/// Tells that the two sensors share no joint, once the engine has said so for long, or that nothing fits where no lag does either; and no lag
+/// is to blame: it is known, or none at all explains the motion.
 static void doubt(jcal_body_t *self, unsigned joint, bool is_against)
 {
     jcal_body_joint_t *const state = &self->table.joint_states[joint];
@@ -42,7 +42,8 @@ void jcal_body_look(jcal_body_t *self, unsigned joint)
     jcal_body_joint_t *const state = &self->table.joint_states[joint];
     jcal_body_joint_result_t result;
     jcal_body_engine_get(&self->table.joints[joint], &result);
-    doubt(self, joint, result.head.reason == JCAL_REASON_NOT_ONE_JOINT);
+    const bool fits_nothing = state->no_lag && (result.head.reason == JCAL_REASON_DOES_NOT_FIT);
+    doubt(self, joint, fits_nothing || (result.head.reason == JCAL_REASON_NOT_ONE_JOINT));
     jcal_body_report(self, joint, &result);
     const unsigned status = (unsigned)result.head.status;
     const unsigned reason = (unsigned)result.head.reason;
