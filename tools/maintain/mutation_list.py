@@ -106,6 +106,16 @@ X_RESULT = "lib/two_axes/result.c"
 X_STREAM = "lib/two_axes/stream.c"
 X_WINDOWS = "lib/two_axes/windows.c"
 AUTO = "lib/auto/hinge.c"
+O_BODY = "lib/body/body.c"
+O_CONFIG = "lib/body/config.c"
+O_EVENTS = "lib/body/events.c"
+O_EXAM = "lib/body/exam.c"
+O_LINE = "lib/body/line.c"
+O_LOOK = "lib/body/look.c"
+O_PROBE = "lib/body/probe.c"
+O_ROUND = "lib/body/round.c"
+O_TREE = "lib/body/tree.c"
+O_TRUST = "lib/body/trust.c"
 A_JUDGE = "lib/auto/judge.c"
 A_RESULT = "lib/auto/result.c"
 DECAY = "lib/math/decay.c"
@@ -1036,6 +1046,26 @@ MUTATIONS = [
     (H_VERDICT, "return (signs > 0) == is_even;", "return (signs > 0) != is_even;", "right-handed ways"),
     (H_VERDICT, "#define GRAVITY_SHARE 0.06f", "#define GRAVITY_SHARE 0.08f", "how far off gravity may be"),
     (H_VERDICT, "(score[JCAL_HEALTH_DEG] < (RATE_UNIT_SHARE * as_is))", "(false)", "rates in deg/s"),
+    (O_BODY, "self->next = (uint8_t)((at + 1u) % count);", "self->next = 0u;", "slices in turn"),
+    (O_BODY, "(left >= JCAL_BODY_UNITS_MIN)", "(left >= 1u)", "work that does not fit"),
+    (O_BODY, "(sensor1->line.last == sensor2->line.last) && goes_on &&", "(sensor1->line.last == sensor2->line.last) &&", "angles after a gap"),
+    (O_CONFIG, "parents[joint->distal] = (uint8_t)j;", "(void)parents;", "distal to one joint only"),
+    (O_CONFIG, "at = table->joints[parents[at]].proximal;", "at = table->joints[parents[at]].distal;", "the way up"),
+    (O_EVENTS, "self->dropped += 1u;", "self->dropped += 0u;", "events that are dropped"),
+    (O_EXAM, "(state->same_us + since_us)", "since_us", "readings that stand still"),
+    (O_EXAM, "exam->since = self->round.number;", "exam->since = 0u;", "time of an examination"),
+    (O_LINE, "(n >= self->begin) && ", "", "where a sensor begins"),
+    (O_LINE, "begin_at(self, pace, n + 1u);", "(void)n;", "a hole after what was missed"),
+    (O_LOOK, "const bool is_told_by_times = jcal_body_in_step(self, joint) || state->no_lag;", "const bool is_told_by_times = jcal_body_in_step(self, joint);", "no lag at all explains the motion"),
+    (O_PROBE, "state->lag_s += off_s;", "state->lag_s = 0.0f;", "what was taken off"),
+    (O_ROUND, ">= SETTLED_S);", ">= 0.0f);", "filters that have not settled"),
+    (O_ROUND, "- (uint64_t)(int64_t)sensor->shift_us;", ";", "lags are taken off"),
+    (O_ROUND, "if (!knows && sensor->is_heard && !is_over) {", "if (!knows && !is_over) {", "who is silent is not waited for"),
+    (O_ROUND, "const uint64_t body_us = self->round.now_us + BACK_US;", "const uint64_t body_us = BACK_US;", "time goes on over a clock that begins anew"),
+    (O_TREE, "at = self->table.joints[joint].proximal;", "break;", "lags go down the tree"),
+    (O_TREE, "if (magnitude(state->off_us) > ANEW_US) {", "if (magnitude(lag_us) > ANEW_US) {", "small lags add up"),
+    (O_TRUST, "} else if (!trust->lag_known && (head->status == JCAL_READY)) {", "} else if (false) {", "ready without a lag"),
+    (O_TRUST, "if ((trust->bad1 != 0u) || (trust->bad2 != 0u)) {", "if (trust->bad1 != 0u) {", "a bad distal sensor"),
     (DECAY, "p = p * (2.0f - p);\n    return", "return", "doublings of the exponential"),
 ]
 

@@ -272,7 +272,7 @@ static void a_sensor_with_wrong_gravity_is_named_by_the_examiner(void)
 {
     f.config.examine_s = 5.0f;
     body_begin(&f);
-    for (uint32_t k = 0u; k < 900u; ++k) {
+    for (uint32_t k = 0u; k < 960u; ++k) {
         for (unsigned s = 0u; s < SENSORS; ++s) {
             float values[6];
             values_at(s, k, values);
@@ -284,6 +284,7 @@ static void a_sensor_with_wrong_gravity_is_named_by_the_examiner(void)
         }
         work(k);
     }
+    TEST_ASSERT_EQUAL_UINT8(1u, f.body.exam.sensor); /* five seconds each */
     TEST_ASSERT_TRUE(told[JCAL_BODY_SENSOR_BAD] > 0u);
     TEST_ASSERT_EQUAL_UINT8(0u, last[JCAL_BODY_SENSOR_BAD].sensor);
     TEST_ASSERT_TRUE((body_sensor(&f, 0u).bad & (1u << (unsigned)JCAL_FINDING_GRAVITY_OFF)) != 0u);
