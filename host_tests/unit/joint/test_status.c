@@ -131,7 +131,7 @@ static void the_first_number_after_each_enumeration_is_unknown(void)
     TEST_ASSERT_EQUAL_STRING("unknown", jcal_engine_string((jcal_engine_t)2));
     TEST_ASSERT_NULL(jcal_weak_string((jcal_weak_t)7));
     TEST_ASSERT_NULL(jcal_hint_string((jcal_hint_t)10));
-    TEST_ASSERT_NULL(jcal_reason_string((jcal_reason_t)15));
+    TEST_ASSERT_NULL(jcal_reason_string((jcal_reason_t)17));
 }
 
 int main(void)
