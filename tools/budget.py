@@ -25,10 +25,11 @@ ENGINES = {"stream": (), "window": ("REPLAY_WINDOW",)}
 TWO_DOF, CENTER, CHAIN, SENSOR = "two_dof_stream", "center_stream", "chain", "sensor"
 LEG = "leg"
 FUNCTIONAL, AUTO, TWO_AXES = "functional_hinge", "hinge_auto", "two_axes"
-PACKETS, PAIRING, LAG, HEALTH = "packets", "pairing", "lag", "health"
+PACKETS, PAIRING, LAG, HEALTH, BODY = "packets", "pairing", "lag", "health", "body"
 DEFINED = {TWO_DOF: "REPLAY_TWO_DOF", CENTER: "REPLAY_CENTER", CHAIN: "REPLAY_CHAIN", LEG: "REPLAY_LEG", SENSOR: "REPLAY_SENSOR",
            FUNCTIONAL: "REPLAY_FUNCTIONAL", AUTO: "REPLAY_AUTO", TWO_AXES: "REPLAY_TWO_AXES",
-           PACKETS: "REPLAY_PACKETS", PAIRING: "REPLAY_PAIRING", LAG: "REPLAY_LAG", HEALTH: "REPLAY_HEALTH"}
+           PACKETS: "REPLAY_PACKETS", PAIRING: "REPLAY_PAIRING", LAG: "REPLAY_LAG", HEALTH: "REPLAY_HEALTH",
+           BODY: "REPLAY_BODY"}
 INSTANCES, RATE_HZ = 16, 100
 KNEE, ELBOW = "people_knee_long_R1", "people_elbow_B_JA_Fast"
 SLICES_PER_S, TABLED_HZ = (200, 100, 50, 25), (50, 100)
@@ -204,6 +205,22 @@ def wireless_stages(stack: dict[str, int]) -> dict:
             | wireless(PAIRING, pairs, stack, ("push", "pull")) | wireless(LAG, pairs, stack, ("add", "step")))
 
 
+def body(stack: dict[str, int]) -> dict:
+    """Sixteen sensors and fifteen functional hinges: each hundredth of a second, packets and one step of 80 units. Once ready: without the search for lags."""
+    samples = target.samples_file(target.recordings([KNEE])[0], RATE_HZ)
+    counts, worst, printed = counts_of(target.build_plugin(), BODY, samples, ("REPLAY_STACK",))
+    in_step, _, ready = counts_of(target.build_plugin(), BODY, samples, ("REPLAY_IN_STEP",))
+    if "--profile" in sys.argv:
+        for name, count in sorted(worst["update"].items(), key=lambda item: -item[1])[:LISTED]:
+            print(f"    {count:8d}  {name}")
+    once_ready = by_readiness(f"{BODY}_tick_instructions", in_step["update"], ready["before_ready"])
+    return {f"{BODY}_tick_instructions_max": max(max(counts["update"]), max(in_step["update"])),
+            f"{BODY}_tick_instructions_mean": round(statistics.mean(counts["update"])),
+            **once_ready, f"{BODY}_state_bytes": printed["state"],
+            f"{BODY}_stack_painted_bytes": printed["stack"],
+            f"{BODY}_stack_call_graph_bytes": max(stack.get(f"jcal_body_{name}", 0) for name in ("step", "joint", "sensor", "advice", "sentence"))}
+
+
 def by_readiness(key: str, counts: list[int], before_ready: int) -> dict:
     """Means of updates until the first that is ready, and of those from there on; all of them if there is none."""
     return {f"{key}_mean_until_ready": round(statistics.mean(counts[:before_ready] or counts)),
@@ -310,7 +327,7 @@ def measure(samples: Path, recording: Path) -> tuple[dict, dict]:
         numbers[f"hinge_{engine}_stack_painted_bytes"] = of["stack"]
         numbers[f"hinge_{engine}_stack_call_graph_bytes"] = stack.get(f"jcal_{prefix}_update", 0)
     numbers |= two_dof(stack) | center(stack) | chain(stack) | leg(stack) | sensor(stack) | functional(stack) | two_axes(stack)
-    numbers |= hinge_auto(stack) | wireless_stages(stack) | health(stack)
+    numbers |= hinge_auto(stack) | wireless_stages(stack) | health(stack) | body(stack)
     numbers["stack_bytes"] = max(value for key, value in numbers.items() if "_stack_" in key)
     numbers |= sixteen(recording)
     numbers["hub_flash_bytes"] = linked_bytes("hub") - linked_bytes("hub_empty", ("HUB_EMPTY",))
@@ -344,7 +361,7 @@ def page_of(numbers: dict, code: dict) -> str:
              "`uneven`: samples up to 2 ms off, so that coefficients change with each. `functional_hinge`: a person's knee at 100 Hz, ticks and",
              "steps without the stages of its sensors; `step_instructions_mean` is of all steps for a sample. `functional_hinge_code_bytes`: what two",
              "sensors and one such hinge add to a linked image. `two_axes`: the same of a person's elbow. `hinge_auto`: jcal_hinge_auto_update on the same knee, with all it contains. `packets`: of one sensor, four raw "
-             "readings each; `pairing` and `lag`: of the same knee's two sensors, without their stages, one slice of the lag's work per sample. `health`: jcal_health_push, one sensor on a knee at 100 Hz. Sixteen hinges: in their busiest second that is "
+             "readings each; `pairing` and `lag`: of the same knee's two sensors, without their stages, one slice of the lag's work per sample. `health`: jcal_health_push, one sensor on a knee at 100 Hz. `body`: sixteen sensors and fifteen functional hinges on the same knee, a tick is a hundredth of a second with the packets that come and one step of 80 units, and the state has everything, packets that wait included. Sixteen hinges: in their busiest second that is "
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * low / 1e6:.0f} to",
              f"{numbers['sixteen_hinges_instructions_per_s_busiest'] * high / 1e6:.0f} million cycles, by the estimate below, of 64 million.", "",
              "Instructions, not cycles; no board was measured. On paper, the instructions of the stream engine on this recording",
@@ -392,6 +409,7 @@ def main() -> int:
         hinge_auto({})
         wireless_stages({})
         health({})
+        body({})
         return 0
     numbers, code = measure(samples, recording)
     page = page_of(numbers, code)

@@ -24,6 +24,7 @@
 /// | by how much two sensors of one joint are out of step | lag.h | |
 /// | a calibration kept while the power is off | keep.h, keep_flash.h | |
 /// | whether a kept calibration still holds | remember.h | |
+/// | a whole body: wireless sensors and the joints between them | body.h | body_config.h |
 /// | what status, reason and hint mean | head.h, status.h, reject.h | gate.h: limits of single samples |
 ///
 /// What stands in private/ is state whose size must be known at compile time; nothing there is for the user to touch.
@@ -37,6 +38,7 @@
 
 #include "jointcal/ball.h"
 #include "jointcal/ball_pair.h"
+#include "jointcal/body.h"
 #include "jointcal/center.h"
 #include "jointcal/center_window.h"
 #include "jointcal/chain.h"

@@ -20,7 +20,7 @@
 ///
 /// What comes out is remembered, not known: sensors are put on anew every day. remember.h has motion confirm it.
 ///
-/// Units and frames: types.h. The layout: docs/METHOD_HUB.md, section 1. No function here has state; all cost is constant, about 2,000
+/// Units and frames: types.h. The layout: docs/METHOD_HUB.md, section 2. No function here has state; all cost is constant, about 2,000
 /// instructions for a CRC.
 #ifndef JCAL_KEEP_H
 #define JCAL_KEEP_H

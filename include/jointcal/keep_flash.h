@@ -14,7 +14,7 @@
 ///
 /// A call that fails ends the write, and the image from before is in use.
 ///
-/// When to write: jcal_kept_worth (keep.h) says what is worth it, jcal_keep_due how often. Method, wear: docs/METHOD_HUB.md, sections 1 and 2.
+/// When to write: jcal_kept_worth (keep.h) says what is worth it, jcal_keep_due how often. Method, wear: docs/METHOD_HUB.md, sections 2 and 3.
 /// Threads:  all calls on one flash belong to one task. Stack: 0.4 KiB.
 #ifndef JCAL_KEEP_FLASH_H
 #define JCAL_KEEP_FLASH_H

@@ -24,7 +24,7 @@
 /// Of two axes and of a ball joint only the levers are looked at: they may be dropped, and are confirmed by jcal_remember_settle alone.
 ///
 /// Units and frames: types.h. Cost: 1 KiB of state. Until it is confirmed or dropped an add takes 1,800 instructions on a Cortex-M4F, a slice at
-/// most 5,100, and there are three slices every quarter of a second: 900 per reading at 100 Hz. Method, measured: docs/METHOD_HUB.md, section 3.
+/// most 5,100, and there are three slices every quarter of a second: 900 per reading at 100 Hz. Method, measured: docs/METHOD_HUB.md, section 4.
 /// Threads:  all calls on one of these belong to one task.
 #ifndef JCAL_REMEMBER_H
 #define JCAL_REMEMBER_H

@@ -57,8 +57,8 @@ static void halve_sides(jcal_center_gravity_t *self)
 static void add_sides(jcal_center_gravity_t *self, const jcal_kinematic_t *sample, const jcal_center_place_t *place,
                       jcal_vec3_t up1, jcal_vec3_t up2)
 {
-    const jcal_vec3_t f1 = jcal_vec3_sub(sample->body1.a, jcal_body_times(&sample->body1, place->r1));
-    const jcal_vec3_t f2 = jcal_vec3_sub(sample->body2.a, jcal_body_times(&sample->body2, place->r2));
+    const jcal_vec3_t f1 = jcal_vec3_sub(sample->body1.a, jcal_segment_times(&sample->body1, place->r1));
+    const jcal_vec3_t f2 = jcal_vec3_sub(sample->body2.a, jcal_segment_times(&sample->body2, place->r2));
     const jcal_plane_t h1 = across(up1, f1);
     const jcal_plane_t h2 = across(up2, f2);
     const float dt_s = sample->dt_s;

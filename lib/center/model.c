@@ -16,7 +16,7 @@
 #define OWN 9u
 
 /* The 9 features of sign |a - K r|^2 that are not constant. */
-static void own_features(const jcal_body_t *body, float sign, float *f)
+static void own_features(const jcal_segment_t *body, float sign, float *f)
 {
     const jcal_vec3_t *const k = body->k;
     for (size_t i = 0u; i < 3u; ++i) {
@@ -120,7 +120,7 @@ void jcal_center_form_row(const float *moments, const jcal_center_place_t *place
 }
 
 /* sign times the derivatives of |a - b - K r| by r and b, along its direction. */
-static void own_row(const jcal_body_t *body, jcal_vec3_t along, float *by_r, float *by_b)
+static void own_row(const jcal_segment_t *body, jcal_vec3_t along, float *by_r, float *by_b)
 {
     const jcal_vec3_t *const k = body->k;
     by_r[0] = -jcal_vec3_dot(k[0], along);
@@ -133,10 +133,10 @@ static void own_row(const jcal_body_t *body, jcal_vec3_t along, float *by_r, flo
 
 bool jcal_center_residual(const jcal_kinematic_t *sample, const jcal_center_point_t *point, jcal_center_residual_t *out)
 {
-    const jcal_vec3_t a1 = jcal_vec3_sub(sample->body1.a, jcal_body_turn(&sample->body1, point->b1));
-    const jcal_vec3_t a2 = jcal_vec3_sub(sample->body2.a, jcal_body_turn(&sample->body2, point->b2));
-    const jcal_vec3_t turn1 = jcal_body_times(&sample->body1, point->place.r1);
-    const jcal_vec3_t turn2 = jcal_body_times(&sample->body2, point->place.r2);
+    const jcal_vec3_t a1 = jcal_vec3_sub(sample->body1.a, jcal_segment_turn(&sample->body1, point->b1));
+    const jcal_vec3_t a2 = jcal_vec3_sub(sample->body2.a, jcal_segment_turn(&sample->body2, point->b2));
+    const jcal_vec3_t turn1 = jcal_segment_times(&sample->body1, point->place.r1);
+    const jcal_vec3_t turn2 = jcal_segment_times(&sample->body2, point->place.r2);
     const jcal_vec3_t v1 = jcal_vec3_sub(a1, turn1);
     const jcal_vec3_t v2 = jcal_vec3_sub(a2, turn2);
     const float n1 = jcal_vec3_norm(v1);
@@ -167,10 +167,10 @@ static float component(jcal_vec3_t v, unsigned part)
 void jcal_center_residual_oriented(const jcal_kinematic_t *sample, const jcal_center_point_t *point, unsigned part,
                                    jcal_center_residual_t *out)
 {
-    const jcal_body_t *const body1 = &sample->body1;
-    const jcal_body_t *const body2 = &sample->body2;
-    const jcal_vec3_t turn1 = jcal_body_times(body1, point->place.r1);
-    const jcal_vec3_t turn2 = jcal_body_times(body2, point->place.r2);
+    const jcal_segment_t *const body1 = &sample->body1;
+    const jcal_segment_t *const body2 = &sample->body2;
+    const jcal_vec3_t turn1 = jcal_segment_times(body1, point->place.r1);
+    const jcal_vec3_t turn2 = jcal_segment_times(body2, point->place.r2);
     const jcal_vec3_t apart = jcal_vec3_sub(body1->a, turned(point->heading, body2->a));
     const jcal_vec3_t at2 = turned(point->heading, jcal_vec3_sub(body2->a, turn2));
     const jcal_vec3_t e = jcal_vec3_sub(jcal_vec3_sub(body1->a, turn1), at2);
@@ -188,8 +188,8 @@ void jcal_center_residual_oriented(const jcal_kinematic_t *sample, const jcal_ce
 
 void jcal_center_add_heading(const jcal_kinematic_t *sample, const jcal_center_place_t *place, jcal_plane_t *sum)
 {
-    const jcal_vec3_t f1 = jcal_vec3_sub(sample->body1.a, jcal_body_times(&sample->body1, place->r1));
-    const jcal_vec3_t f2 = jcal_vec3_sub(sample->body2.a, jcal_body_times(&sample->body2, place->r2));
+    const jcal_vec3_t f1 = jcal_vec3_sub(sample->body1.a, jcal_segment_times(&sample->body1, place->r1));
+    const jcal_vec3_t f2 = jcal_vec3_sub(sample->body2.a, jcal_segment_times(&sample->body2, place->r2));
     const jcal_plane_t flat1 = {f1.x, f1.y};
     const jcal_plane_t flat2 = {f2.x, f2.y};
     *sum = jcal_plane_add(*sum, 1.0f, jcal_plane_against(flat2, flat1));

@@ -86,6 +86,8 @@ const char *jcal_reason_string(jcal_reason_t reason)
                                         "gravity_off",
                                         "not_one_joint",
                                         "no_bend",
-                                        "more_axes"};
+                                        "more_axes",
+                                        "sensor_bad",
+                                        "out_of_step"};
     return word(words, COUNT(words), (int)reason, NULL);
 }

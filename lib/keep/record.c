@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// A calibration as 128 bytes, and back. See jointcal/keep.h; the layout: docs/METHOD_HUB.md, section 1.
+/// A calibration as 128 bytes, and back. See jointcal/keep.h; the layout: docs/METHOD_HUB.md, section 2.
 #include "jointcal/keep.h"
 
 #include "jointcal/keep_flash.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// How often flash may be written. See jointcal/keep_flash.h; what it wears: docs/METHOD_HUB.md, section 2.
+/// How often flash may be written. See jointcal/keep_flash.h; what it wears: docs/METHOD_HUB.md, section 3.
 #include "jointcal/keep_flash.h"
 
 #include <stddef.h>

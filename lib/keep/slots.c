@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// Records of all joints in two slots of flash. See jointcal/keep_flash.h; the layout: docs/METHOD_HUB.md, section 1.
+/// Records of all joints in two slots of flash. See jointcal/keep_flash.h; the layout: docs/METHOD_HUB.md, section 2.
 #include "jointcal/keep_flash.h"
 
 #include "keep/bytes.h"

@@ -7,8 +7,8 @@
 /// is empty the rest of the stretch goes into it, and the other sensor is ahead. So one ring serves both.
 #include "jointcal/pairing.h"
 
-#include "jointcal/vec3.h"
 #include "math/clear.h"
+#include "pairing/line.h"
 #include "sample/clock.h"
 
 #include <stddef.h>
@@ -32,12 +32,6 @@ jcal_status_t jcal_pairing_init(jcal_pairing_t *self, const jcal_pairing_config_
     return JCAL_OK;
 }
 
-/// (1 - share) a + share b: exact at both ends.
-static jcal_vec3_t between(jcal_vec3_t a, jcal_vec3_t b, float share)
-{
-    return jcal_vec3_add(jcal_vec3_scale(a, 1.0f - share), jcal_vec3_scale(b, share));
-}
-
 /// The reading at the next common time of the stretch.
 static jcal_imu_t next_of(const jcal_pairing_t *self)
 {
@@ -45,9 +39,7 @@ static jcal_imu_t next_of(const jcal_pairing_t *self)
     const jcal_imu_t *const after = &self->sensor[stretch->sensor].imu;
     const uint32_t since_us = (uint32_t)((stretch->next * self->period_us) - stretch->from_us);
     const float share = (float)since_us / stretch->length_us;
-    const jcal_imu_t out = {between(stretch->before.gyr_rad_s, after->gyr_rad_s, share),
-                            between(stretch->before.acc_m_s2, after->acc_m_s2, share)};
-    return out;
+    return jcal_line_at(&stretch->before, after, share);
 }
 
 static void drop_oldest(jcal_pairing_t *self)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// A look at the sums of a remembered calibration. See remember/look.h; docs/METHOD_HUB.md, section 3.
+/// A look at the sums of a remembered calibration. See remember/look.h; docs/METHOD_HUB.md, section 4.
 #include "remember/look.h"
 
 #include "math/chol_small.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
-/// A remembered calibration: when it is confirmed, when it is dropped. See jointcal/remember.h; docs/METHOD_HUB.md, section 3.
+/// A remembered calibration: when it is confirmed, when it is dropped. See jointcal/remember.h; docs/METHOD_HUB.md, section 4.
 #include "jointcal/remember.h"
 
 #include "jointcal/vec3.h"

@@ -8,7 +8,7 @@
 ///
 /// [METHOD_PEOPLE.md, section 2]. A tilt t of axis i moves j_i by t_u u_i + t_v v_i, so that all of cost, gradient and second
 /// derivative by four tilts and the heading is made of products of columns of R1 E1 with Rz R2 E2, and of Q likewise:
-/// docs/METHOD_HUB.md, section 3.
+/// docs/METHOD_HUB.md, section 4.
 #ifndef JCAL_REMEMBER_SUMS_H
 #define JCAL_REMEMBER_SUMS_H
 

@@ -98,7 +98,7 @@ static void fill_columns(jcal_vec3_t w, jcal_vec3_t dw, jcal_vec3_t *k)
 
 /// The body of one sensor in the middle of a full ring, in its frame: by a quotient near (w+1 - w-1) + far (w+2 - w-2).
 static void find_body(const jcal_kinematics_t *self, unsigned sensor, jcal_derivative_t derivative, float spacing_s,
-                      jcal_body_t *body)
+                      jcal_segment_t *body)
 {
     const float near = ((derivative == JCAL_DERIVATIVE_SYMMETRIC) ? 0.5f : (8.0f / 12.0f)) / spacing_s;
     const float far = ((derivative == JCAL_DERIVATIVE_SYMMETRIC) ? 0.0f : (-1.0f / 12.0f)) / spacing_s;
@@ -116,7 +116,7 @@ static void find_body(const jcal_kinematics_t *self, unsigned sensor, jcal_deriv
 }
 
 /// Turns a body from its sensor's frame to another.
-static void turn_body(jcal_body_t *body, jcal_quat_t q)
+static void turn_body(jcal_segment_t *body, jcal_quat_t q)
 {
     const float x2 = 2.0f * q.x;
     const float y2 = 2.0f * q.y;
@@ -125,14 +125,14 @@ static void turn_body(jcal_body_t *body, jcal_quat_t q)
     turn[0] = jcal_vec3(1.0f - ((y2 * q.y) + (z2 * q.z)), (x2 * q.y) + (z2 * q.w), (x2 * q.z) - (y2 * q.w));
     turn[1] = jcal_vec3((x2 * q.y) - (z2 * q.w), 1.0f - ((x2 * q.x) + (z2 * q.z)), (y2 * q.z) + (x2 * q.w));
     turn[2] = jcal_vec3((x2 * q.z) + (y2 * q.w), (y2 * q.z) - (x2 * q.w), 1.0f - ((x2 * q.x) + (y2 * q.y)));
-    body->a = jcal_body_turn(body, body->a);
+    body->a = jcal_segment_turn(body, body->a);
     for (size_t i = 0u; i < 3u; ++i) {
-        body->k[i] = jcal_body_turn(body, body->k[i]);
+        body->k[i] = jcal_segment_turn(body, body->k[i]);
     }
 }
 
 /// sum <- sum + body.
-static void add_body(jcal_body_t *sum, const jcal_body_t *body)
+static void add_body(jcal_segment_t *sum, const jcal_segment_t *body)
 {
     sum->a = jcal_vec3_add(sum->a, body->a);
     sum->rate2 += body->rate2;
@@ -188,7 +188,7 @@ static void follow_frames(jcal_kinematics_t *self, float block_s)
 
 /// The four blocks of one body, from the oldest.
 typedef struct {
-    const jcal_body_t *of[JCAL_BLOCKS];
+    const jcal_segment_t *of[JCAL_BLOCKS];
 } blocks_t;
 
 /// weights[0] (a + d) + weights[1] (b + c).
@@ -200,13 +200,13 @@ static jcal_vec3_t mean_vector(const jcal_vec3_t *a, const jcal_vec3_t *b, const
 }
 
 /// Weights (1, 3, 3, 1)/8, times `share` of what a block sums up.
-static void mean_body(const blocks_t *blocks, float share, jcal_body_t *out)
+static void mean_body(const blocks_t *blocks, float share, jcal_segment_t *out)
 {
     const float weights[2] = {0.125f * share, 0.375f * share};
-    const jcal_body_t *const a = blocks->of[0];
-    const jcal_body_t *const b = blocks->of[1];
-    const jcal_body_t *const c = blocks->of[2];
-    const jcal_body_t *const d = blocks->of[3];
+    const jcal_segment_t *const a = blocks->of[0];
+    const jcal_segment_t *const b = blocks->of[1];
+    const jcal_segment_t *const c = blocks->of[2];
+    const jcal_segment_t *const d = blocks->of[3];
     out->a = mean_vector(&a->a, &b->a, &c->a, &d->a, weights);
     out->rate2 = (weights[0] * (a->rate2 + d->rate2)) + (weights[1] * (b->rate2 + c->rate2));
     for (size_t i = 0u; i < 3u; ++i) {
@@ -296,8 +296,8 @@ static bool emit(jcal_kinematics_t *self, const jcal_kinematics_config_t *cfg, c
     follow_frames(self, cfg->smoothing_s / (float)JCAL_BLOCKS);
     jcal_bodies_t *const slot = &self->block[self->next_block];
     const bool is_first = is_smooth && (self->in_block == 0u); /* of the block: straight to its place */
-    jcal_body_t *const body1 = is_first ? &slot->body1 : &out->body1;
-    jcal_body_t *const body2 = is_first ? &slot->body2 : &out->body2;
+    jcal_segment_t *const body1 = is_first ? &slot->body1 : &out->body1;
+    jcal_segment_t *const body2 = is_first ? &slot->body2 : &out->body2;
     find_body(self, 1u, cfg->derivative, spacing_s, body1);
     find_body(self, 2u, cfg->derivative, spacing_s, body2);
     if (attitudes != NULL) {

@@ -28,14 +28,14 @@ bool jcal_kinematics_put(jcal_kinematics_t *self, const jcal_kinematics_config_t
                          const jcal_attitudes_t *attitudes, jcal_kinematic_t *out);
 
 /// The bias of a body's accelerometer, b in its sensor's frame, in the body's frame.
-static inline jcal_vec3_t jcal_body_turn(const jcal_body_t *body, jcal_vec3_t b)
+static inline jcal_vec3_t jcal_segment_turn(const jcal_segment_t *body, jcal_vec3_t b)
 {
     const jcal_vec3_t xy = jcal_vec3_add(jcal_vec3_scale(body->turn[0], b.x), jcal_vec3_scale(body->turn[1], b.y));
     return jcal_vec3_add(xy, jcal_vec3_scale(body->turn[2], b.z));
 }
 
 /// K r of a body.
-static inline jcal_vec3_t jcal_body_times(const jcal_body_t *body, jcal_vec3_t r)
+static inline jcal_vec3_t jcal_segment_times(const jcal_segment_t *body, jcal_vec3_t r)
 {
     const jcal_vec3_t xy = jcal_vec3_add(jcal_vec3_scale(body->k[0], r.x), jcal_vec3_scale(body->k[1], r.y));
     return jcal_vec3_add(xy, jcal_vec3_scale(body->k[2], r.z));

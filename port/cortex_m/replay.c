@@ -13,7 +13,7 @@
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
  * the stack before every call and print how deep the deepest one went), REPLAY_LEG (hip and knee of a person, with their sensors' stages),
  * REPLAY_PACKETS (packets of four raw readings with jitter; a step is one pull), REPLAY_PAIRING (sensor 2 reads 3.7 ms later; a step is one
- * pull), REPLAY_LAG (the estimate of the lag, as REPLAY_FUNCTIONAL). */
+ * pull), REPLAY_LAG (the estimate of the lag, as REPLAY_FUNCTIONAL), REPLAY_BODY (replay_body.h; an update is a hundredth of a second). */
 #include "jointcal/center.h"
 #include "jointcal/chain.h"
 #include "jointcal/functional.h"
@@ -253,6 +253,8 @@ static jcal_status_t engine_get(const jcal_packets_t *self, result_t *out)
     out->last = last_reading;
     return jcal_packets_get(self, &out->counts);
 }
+#elif defined(REPLAY_BODY)
+#include "replay_body.h"
 #elif defined(REPLAY_AUTO)
 typedef jcal_pair_t sample_t;
 typedef jcal_hinge_auto_result_t result_t;
@@ -398,6 +400,11 @@ static __attribute__((noinline)) void call_engine(const sample_t *reading)
         status = jcal_packets_pull(&replayed, &last_reading);
         replay_mark_end();
     }
+}
+#elif defined(REPLAY_BODY)
+static __attribute__((noinline)) void call_engine(const sample_t *pair)
+{
+    tick_body(pair, replay_mark_update, replay_mark_end);
 }
 #elif defined(OF_TICKS)
 /* As jcal_functional_pair_update and its like, with the marks of the parts that are asked for. */
@@ -701,6 +708,28 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
                             q.x,
                             q.y,
                             q.z};
+#elif defined(REPLAY_BODY)
+static uint64_t hash_floats(uint64_t hash, const result_t *r)
+{
+    const float floats[] = {r->axis1.x,
+                            r->axis1.y,
+                            r->axis1.z,
+                            r->axis2.x,
+                            r->axis2.y,
+                            r->axis2.z,
+                            r->uncertainty1_rad,
+                            r->uncertainty2_rad,
+                            r->flexion_rad,
+                            r->flexion_bound_rad,
+                            r->heading.heading_rad,
+                            r->lag_s,
+                            r->lag_bound_s,
+                            r->joint_to_sensor1_m.x,
+                            r->joint_to_sensor1_m.y,
+                            r->joint_to_sensor1_m.z,
+                            r->joint_to_sensor2_m.x,
+                            r->joint_to_sensor2_m.y,
+                            r->joint_to_sensor2_m.z};
 #elif defined(REPLAY_AUTO)
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {
@@ -748,6 +777,8 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
 #elif defined(REPLAY_TWO_AXES)
 #define head ball.head
 #define has_axes ball.has_estimate
+#elif defined(REPLAY_BODY)
+#define has_axes lag_known
 #endif
 static uint64_t hash_result(uint64_t hash, const result_t *r)
 {

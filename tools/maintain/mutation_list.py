@@ -85,7 +85,7 @@ B_TRACK = "lib/ball/track.c"
 G_CONFIG = "lib/pairing/config.c"
 G_LAG = "lib/pairing/lag.c"
 G_SEARCH = "lib/pairing/lag_search.c"
-G_STREAM = "lib/pairing/stream.c"
+G_LINE, G_STREAM = "lib/pairing/line.h", "lib/pairing/stream.c"
 G_SUMS = "lib/pairing/lag_sums.c"
 H_BLOCK = "lib/health/block.h"
 H_FRAMES = "lib/health/frames.c"
@@ -115,6 +115,16 @@ X_RESULT = "lib/two_axes/result.c"
 X_STREAM = "lib/two_axes/stream.c"
 X_WINDOWS = "lib/two_axes/windows.c"
 AUTO = "lib/auto/hinge.c"
+O_BODY = "lib/body/body.c"
+O_CONFIG = "lib/body/config.c"
+O_EVENTS = "lib/body/events.c"
+O_EXAM = "lib/body/exam.c"
+O_LINE = "lib/body/line.c"
+O_LOOK = "lib/body/look.c"
+O_PROBE = "lib/body/probe.c"
+O_ROUND = "lib/body/round.c"
+O_TREE = "lib/body/tree.c"
+O_TRUST = "lib/body/trust.c"
 A_JUDGE = "lib/auto/judge.c"
 A_RESULT = "lib/auto/result.c"
 DECAY = "lib/math/decay.c"
@@ -364,7 +374,7 @@ MUTATIONS = [
     (CMODEL, "by_b[2] = -jcal_vec3_dot(body->turn[2], along);", "by_b[2] = -jcal_vec3_dot(body->turn[1], along);",
      "Jacobian by a bias"),
     (CMODEL, "out->e = n1 - n2;", "out->e = n1 + n2;", "residual of SS"),
-    (CMODEL, "jcal_vec3_sub(sample->body1.a, jcal_body_turn(", "jcal_vec3_add(sample->body1.a, jcal_body_turn(", "sign of a bias"),
+    (CMODEL, "jcal_vec3_sub(sample->body1.a, jcal_segment_turn(", "jcal_vec3_add(sample->body1.a, jcal_body_turn(", "sign of a bias"),
     (CMODEL, "(heading.im * v.x) + (heading.re * v.y), v.z", "(heading.re * v.y) - (heading.im * v.x), v.z", "Rz"),
     (SUMS, "self->lagged += pull * recent[0];", "self->lagged += pull * recent[LAG - 1u];", "what lasts"),
     (SUMS, "const float mixed = share / self->blocks;", "const float mixed = share;", "scatter that moves along"),
@@ -397,7 +407,7 @@ MUTATIONS = [
     (CMODEL, "by_b[1] = -jcal_vec3_dot(body->turn[1], along);", "by_b[1] = -jcal_vec3_dot(body->turn[2], along);",
      "index of a bias in a row"),
     (CMODEL, "jcal_vec3_scale(v2, -1.0f / n2)", "jcal_vec3_scale(v2, 1.0f / n2)", "sign of sensor 2 in a row"),
-    (CMODEL, "jcal_body_turn(&sample->body2, point->b2)", "jcal_body_turn(&sample->body2, point->b1)", "bias of the other sensor"),
+    (CMODEL, "jcal_segment_turn(&sample->body2, point->b2)", "jcal_body_turn(&sample->body2, point->b1)", "bias of the other sensor"),
     (CMODEL, "jcal_vec3_norm(a1) - jcal_vec3_norm(a2);", "jcal_vec3_norm(a1) + jcal_vec3_norm(a2);",
      "residual of sensors on the joint"),
     (CMODEL, "(n1 > FORCE_MIN) && (n2 > FORCE_MIN)", "(n1 > FORCE_MIN) || (n2 > FORCE_MIN)", "a force without direction"),
@@ -948,7 +958,7 @@ MUTATIONS = [
     (P_QUEUE, "jcal_ring_room_of(&self->ring, self->cfg.packets,", "jcal_ring_room_of(&self->ring, 2u * self->cfg.packets,", "capacity"),
     (G_CONFIG, "{0.01f, 0.1f}", "{0.02f, 0.1f}", "the default period"),
     (G_CONFIG, "{\"period_s\", config->period_s, 0.004f, 0.05f}", "{\"period_s\", config->period_s, 0.002f, 0.05f}", "the shortest period"),
-    (G_STREAM, "between(stretch->before.acc_m_s2, after->acc_m_s2, share)", "between(stretch->before.acc_m_s2, after->acc_m_s2, 1.0f - share)", "which reading a share is of"),
+    (G_LINE, "jcal_line_between(before->acc_m_s2, after->acc_m_s2, share)", "jcal_line_between(before->acc_m_s2, after->acc_m_s2, 1.0f - share)", "which reading a share is of"),
     (G_STREAM, "(float)since_us / stretch->length_us", "(float)since_us / (float)self->period_us", "share of a stretch that is no period"),
     (G_STREAM, "self->first = (uint16_t)((self->first + 1u) % JCAL_PAIRING_WAITING);", "", "the oldest of the ring"),
     (G_STREAM, "((size_t)self->first + self->count) % JCAL_PAIRING_WAITING", "(size_t)self->count", "where in the ring"),
@@ -1105,6 +1115,26 @@ MUTATIONS = [
     (R_REMEMBER, "(self->has_axes && (self->bend_rad < BEND_MIN_RAD))", "false", "a stiff joint"),
     (R_REMEMBER, "(self->evidence >= EVIDENCE_MIN)", "true", "the pairing must be shown"),
     (R_REMEMBER, "const bool is_turned = jcal_vec3_dot(a->axis1, b->axis1) < 0.0f;", "const bool is_turned = jcal_vec3_dot(a->axis1, b->axis1) < -2.0f;", "signs of a hinge turn together"),
+    (O_BODY, "self->next = (uint8_t)((at + 1u) % count);", "self->next = 0u;", "slices in turn"),
+    (O_BODY, "(left >= JCAL_BODY_UNITS_MIN)", "(left >= 1u)", "work that does not fit"),
+    (O_BODY, "(sensor1->line.last == sensor2->line.last) && goes_on &&", "(sensor1->line.last == sensor2->line.last) &&", "angles after a gap"),
+    (O_CONFIG, "parents[joint->distal] = (uint8_t)j;", "(void)parents;", "distal to one joint only"),
+    (O_CONFIG, "at = table->joints[parents[at]].proximal;", "at = table->joints[parents[at]].distal;", "the way up"),
+    (O_EVENTS, "self->dropped += 1u;", "self->dropped += 0u;", "events that are dropped"),
+    (O_EXAM, "(state->same_us + since_us)", "since_us", "readings that stand still"),
+    (O_EXAM, "exam->since = self->round.number;", "exam->since = 0u;", "time of an examination"),
+    (O_LINE, "(n >= self->begin) && ", "", "where a sensor begins"),
+    (O_LINE, "begin_at(self, pace, n + 1u);", "(void)n;", "a hole after what was missed"),
+    (O_LOOK, "const bool is_told_by_times = jcal_body_in_step(self, joint) || state->no_lag;", "const bool is_told_by_times = jcal_body_in_step(self, joint);", "no lag at all explains the motion"),
+    (O_PROBE, "state->lag_s += off_s;", "state->lag_s = 0.0f;", "what was taken off"),
+    (O_ROUND, ">= SETTLED_S);", ">= 0.0f);", "filters that have not settled"),
+    (O_ROUND, "- (uint64_t)(int64_t)sensor->shift_us;", ";", "lags are taken off"),
+    (O_ROUND, "if (!knows && sensor->is_heard && !is_over) {", "if (!knows && !is_over) {", "who is silent is not waited for"),
+    (O_ROUND, "const uint64_t body_us = self->round.now_us + BACK_US;", "const uint64_t body_us = BACK_US;", "time goes on over a clock that begins anew"),
+    (O_TREE, "at = self->table.joints[joint].proximal;", "break;", "lags go down the tree"),
+    (O_TREE, "if (magnitude(state->off_us) > ANEW_US) {", "if (magnitude(lag_us) > ANEW_US) {", "small lags add up"),
+    (O_TRUST, "} else if (!trust->lag_known && (head->status == JCAL_READY)) {", "} else if (false) {", "ready without a lag"),
+    (O_TRUST, "if ((trust->bad1 != 0u) || (trust->bad2 != 0u)) {", "if (trust->bad1 != 0u) {", "a bad distal sensor"),
     (DECAY, "p = p * (2.0f - p);\n    return", "return", "doublings of the exponential"),
 ]
 

@@ -50,7 +50,7 @@ static void assert_vector(const double *expected, jcal_vec3_t v, double toleranc
 }
 
 /* a and K, row by row. */
-static void assert_body(const double *expected, const jcal_body_t *body, double tolerance)
+static void assert_body(const double *expected, const jcal_segment_t *body, double tolerance)
 {
     assert_vector(&expected[0], body->a, tolerance);
     for (int i = 0; i < 3; ++i) {
@@ -81,9 +81,9 @@ static void bodies_are_those_of_the_reference(void)
     }
 }
 
-static jcal_body_t body_of(const double *g)
+static jcal_segment_t body_of(const double *g)
 {
-    jcal_body_t body = {.a = {(float)g[0], (float)g[1], (float)g[2]}};
+    jcal_segment_t body = {.a = {(float)g[0], (float)g[1], (float)g[2]}};
     for (int i = 0; i < 3; ++i) {
         body.k[i] = (jcal_vec3_t){(float)g[3 + i], (float)g[6 + i], (float)g[9 + i]};
     }

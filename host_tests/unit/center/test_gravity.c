@@ -66,14 +66,14 @@ static const jcal_center_place_t PLACE = {{0.1f, -0.05f, 0.2f}, {-0.15f, 0.02f, 
 static jcal_kinematic_t sample_at(const scene_t *scene, double t_s)
 {
     jcal_kinematic_t s = {0};
-    jcal_body_t *const bodies[2] = {&s.body1, &s.body2};
+    jcal_segment_t *const bodies[2] = {&s.body1, &s.body2};
     for (int k = 0; k < 2; ++k) {
         double f[3];
         felt(scene, k, t_s, f);
         bodies[k]->k[0] = jcal_vec3((float)sin(4.0 * t_s), (float)sin(5.0 * t_s), 0.0f);
         bodies[k]->k[1] = jcal_vec3((float)cos(6.0 * t_s), (float)cos(4.0 * t_s), 0.0f);
         bodies[k]->k[2] = jcal_vec3(0.0f, (float)sin(7.0 * t_s), (float)sin(6.0 * t_s));
-        const jcal_vec3_t by_turning = jcal_body_times(bodies[k], (k == 0) ? PLACE.r1 : PLACE.r2);
+        const jcal_vec3_t by_turning = jcal_segment_times(bodies[k], (k == 0) ? PLACE.r1 : PLACE.r2);
         bodies[k]->a = jcal_vec3_add(jcal_vec3((float)f[0], (float)f[1], (float)f[2]), by_turning);
     }
     s.dt_s = (float)DT_S;

@@ -48,7 +48,7 @@ static jcal_center_point_t point_of(const double *x)
 }
 
 /* a - T b - K r in double. */
-static void remaining(const jcal_body_t *body, const double *r, const double *b, double *v)
+static void remaining(const jcal_segment_t *body, const double *r, const double *b, double *v)
 {
     v[0] = (double)body->a.x;
     v[1] = (double)body->a.y;
@@ -206,8 +206,8 @@ static void the_row_is_the_residuals_slope(void)
         double none[12] = {0.0};
         double turn2 = 0.0;
         for (unsigned body = 0; body < 2u; ++body) {
-            const jcal_body_t *const b = (body == 0u) ? &samples[n].body1 : &samples[n].body2;
-            jcal_body_t alone = *b;
+            const jcal_segment_t *const b = (body == 0u) ? &samples[n].body1 : &samples[n].body2;
+            jcal_segment_t alone = *b;
             alone.a = jcal_vec3(0.0f, 0.0f, 0.0f);
             double v[3];
             remaining(&alone, &anywhere[3u * body], none, v);

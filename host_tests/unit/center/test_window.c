@@ -280,7 +280,7 @@ static void judgements_are_half_a_second_apart(void)
 }
 
 /* a - K r in double. */
-static void felt(const jcal_body_t *body, jcal_vec3_t r, double *out)
+static void felt(const jcal_segment_t *body, jcal_vec3_t r, double *out)
 {
     const double by[3] = {(double)r.x, (double)r.y, (double)r.z};
     out[0] = (double)body->a.x;

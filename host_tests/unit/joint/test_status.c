@@ -94,6 +94,8 @@ static void reasons_are_null_for_none_and_words_otherwise(void)
     TEST_ASSERT_EQUAL_STRING("not_one_joint", jcal_reason_string(JCAL_REASON_NOT_ONE_JOINT));
     TEST_ASSERT_EQUAL_STRING("no_bend", jcal_reason_string(JCAL_REASON_NO_BEND));
     TEST_ASSERT_EQUAL_STRING("more_axes", jcal_reason_string(JCAL_REASON_MORE_AXES));
+    TEST_ASSERT_EQUAL_STRING("sensor_bad", jcal_reason_string(JCAL_REASON_SENSOR_BAD));
+    TEST_ASSERT_EQUAL_STRING("out_of_step", jcal_reason_string(JCAL_REASON_OUT_OF_STEP));
     TEST_ASSERT_EQUAL_STRING("move_faster", jcal_hint_string(JCAL_HINT_MOVE_FASTER));
     TEST_ASSERT_EQUAL_STRING("bend_only", jcal_hint_string(JCAL_HINT_BEND_ONLY));
     TEST_ASSERT_EQUAL_STRING("turn_only", jcal_hint_string(JCAL_HINT_TURN_ONLY));
@@ -131,7 +133,7 @@ static void the_first_number_after_each_enumeration_is_unknown(void)
     TEST_ASSERT_EQUAL_STRING("unknown", jcal_engine_string((jcal_engine_t)2));
     TEST_ASSERT_NULL(jcal_weak_string((jcal_weak_t)7));
     TEST_ASSERT_NULL(jcal_hint_string((jcal_hint_t)10));
-    TEST_ASSERT_NULL(jcal_reason_string((jcal_reason_t)15));
+    TEST_ASSERT_NULL(jcal_reason_string((jcal_reason_t)17));
 }
 
 int main(void)

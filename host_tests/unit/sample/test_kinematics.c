@@ -41,9 +41,9 @@ static jcal_vec3_t single(const double *v)
 }
 
 /* What a body feels at the joint. */
-static jcal_vec3_t at_joint(const jcal_body_t *body, const double *r)
+static jcal_vec3_t at_joint(const jcal_segment_t *body, const double *r)
 {
-    return jcal_vec3_sub(body->a, jcal_body_times(body, single(r)));
+    return jcal_vec3_sub(body->a, jcal_segment_times(body, single(r)));
 }
 
 /* Largest difference of what both feel at the joint, in length, over 10 s of exact readings, every `lost`th one missing. */
@@ -137,7 +137,7 @@ static void biases_turn_with_their_sensor(void)
         const bool has = jcal_kinematics_put(&chain, &SMOOTHED, &a, NULL, &s);
         TEST_ASSERT_EQUAL_INT(has, jcal_kinematics_put(&other, &SMOOTHED, &b, NULL, &t));
         if (has) {
-            const jcal_vec3_t expected = jcal_body_turn(&s.body1, jcal_vec3(0.3f, 0.0f, -0.2f));
+            const jcal_vec3_t expected = jcal_segment_turn(&s.body1, jcal_vec3(0.3f, 0.0f, -0.2f));
             TEST_ASSERT_TRUE(jcal_vec3_norm(jcal_vec3_sub(jcal_vec3_sub(t.body1.a, s.body1.a), expected)) < 1e-4f);
             TEST_ASSERT_TRUE(jcal_vec3_norm(expected) < 0.3606f); /* no longer than the bias: a mean of turned ones */
             ++seen;
@@ -213,14 +213,14 @@ static void k_is_what_cross_products_say(void)
         TEST_ASSERT_EQUAL_INT(k == 2, jcal_kinematics_put(&chain, &FIVE_POINT, &pair, NULL, &s));
     }
     const jcal_vec3_t expected = jcal_vec3_add(jcal_vec3_cross(dw, r), jcal_vec3_cross(w, jcal_vec3_cross(w, r)));
-    const jcal_vec3_t got = jcal_body_times(&s.body2, r);
+    const jcal_vec3_t got = jcal_segment_times(&s.body2, r);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, expected.x, got.x);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, expected.y, got.y);
     TEST_ASSERT_FLOAT_WITHIN(1e-4f, expected.z, got.z);
     TEST_ASSERT_FLOAT_WITHIN(1e-6f, 5.25f, s.body2.rate2);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, s.body2.a.z);
     TEST_ASSERT_TRUE(s.t_us == 1000000u);
-    const jcal_vec3_t b = jcal_body_turn(&s.body2, r);
+    const jcal_vec3_t b = jcal_segment_turn(&s.body2, r);
     TEST_ASSERT_EQUAL_FLOAT(r.y, b.y);
 }
 

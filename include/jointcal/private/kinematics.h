@@ -23,16 +23,16 @@ typedef struct {
     jcal_vec3_t k[3];     ///< Columns of K, 1/s^2: for vectors in the sensor's frame.
     jcal_vec3_t turn[3];  ///< Columns of the matrix that turns vectors from the sensor's frame.
     float rate2;          ///< |w|^2, (rad/s)^2.
-} jcal_body_t;
+} jcal_segment_t;
 
 /// Both bodies.
 typedef struct {
-    jcal_body_t body1, body2;
+    jcal_segment_t body1, body2;
 } jcal_bodies_t;
 
 /// Both bodies at one time.
 typedef struct {
-    jcal_body_t body1, body2;
+    jcal_segment_t body1, body2;
     uint64_t t_us;
     float dt_s;  ///< The time it stands for.
 } jcal_kinematic_t;

@@ -137,6 +137,10 @@ const char *report_reason(const report_t *report)
         return "the segments move, but the joint between them hardly bends";
     case JCAL_REASON_MORE_AXES:
         return "the joint turns about more than one axis; of one that has two, as an elbow, 'jointcal two-dof' finds both";
+    case JCAL_REASON_SENSOR_BAD:
+        return "one of the sensors is faulty";
+    case JCAL_REASON_OUT_OF_STEP:
+        return "the lag between the two sensors is not known yet";
     case JCAL_REASON_NONE:
     default:
         return NULL;

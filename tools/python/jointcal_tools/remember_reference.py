@@ -1,4 +1,4 @@
-"""Does a remembered hinge still hold? Reference of lib/remember in float64; docs/METHOD_HUB.md, section 3, has the equations.
+"""Does a remembered hinge still hold? Reference of lib/remember in float64; docs/METHOD_HUB.md, section 4, has the equations.
 
     looks = list(look_at(ticks1, ticks2, kept))
     decide(looks, kept)

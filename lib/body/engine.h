@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: MIT */
+/// @file
+/// The estimator of a joint, whatever its kind. Private.
+#ifndef JCAL_BODY_ENGINE_H
+#define JCAL_BODY_ENGINE_H
+
+#include "jointcal/body.h"
+
+/// Forgets what was learnt, keeps the settings.
+void jcal_body_engine_reset(const jcal_body_joint_spec_t *joint);
+
+/// Takes in the ticks of both sensors.
+void jcal_body_engine_add(const jcal_body_joint_spec_t *joint, const jcal_tick_t *tick1, const jcal_tick_t *tick2);
+
+/// A slice of work; false if nothing was due.
+bool jcal_body_engine_step(const jcal_body_joint_spec_t *joint);
+
+/// What it says; `heading` and everything before. Angles and the lag are not its business, and untouched.
+void jcal_body_engine_get(const jcal_body_joint_spec_t *joint, jcal_body_joint_result_t *out);
+
+/// The angle of a hinge, rad; NaN of others.
+float jcal_body_engine_flexion(const jcal_body_joint_spec_t *joint, jcal_quat_t q1, jcal_quat_t q2);
+
+/// Sensor 2 in sensor 1 of a ball joint or one with two axes; all NaN of a hinge.
+jcal_quat_t jcal_body_engine_relative(const jcal_body_joint_spec_t *joint, jcal_quat_t q1, jcal_quat_t q2);
+
+#endif /* JCAL_BODY_ENGINE_H */
