@@ -84,9 +84,10 @@ typedef enum {
     JCAL_REASON_GRAVITY_OFF = 11,     ///< A sensor's specific force is not near 9.81 m/s^2 in the median.
     /// The two accelerations do not belong to one joint: other pair, not the same time, or frames of gyroscope and accelerometer differ.
     JCAL_REASON_NOT_ONE_JOINT = 12,
-    JCAL_REASON_NO_BEND = 13,   ///< The segments move, but the joint between them hardly bends.
-    JCAL_REASON_MORE_AXES = 14,   ///< The joint turns about more than one axis.
-    JCAL_REASON_SENSOR_BAD = 15,  ///< Something is named of a sensor of the joint that makes results worthless: health.h.
+    JCAL_REASON_NO_BEND = 13,    ///< The segments move, but the joint between them hardly bends.
+    JCAL_REASON_MORE_AXES = 14,  ///< The joint turns about more than one axis.
+    JCAL_REASON_SENSOR_BAD =
+        15,  ///< Something is named of a sensor of the joint that makes results worthless: health.h.
     JCAL_REASON_OUT_OF_STEP = 16  ///< The lag of the two sensors is not known yet: lag.h.
 } jcal_reason_t;
 
