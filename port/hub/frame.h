@@ -12,12 +12,12 @@
 #include <stdint.h>
 
 /// First byte of every frame. Another number means another protocol.
-#define FRAME_VERSION 2u
+#define FRAME_VERSION 3u
 
 /// Version, type, sequence number before the payload; CRC behind it.
 #define FRAME_HEAD_BYTES 6u
 #define FRAME_CRC_BYTES 4u
-#define FRAME_PAYLOAD_MAX 144u
+#define FRAME_PAYLOAD_MAX 206u
 #define FRAME_MAX (FRAME_HEAD_BYTES + FRAME_PAYLOAD_MAX + FRAME_CRC_BYTES)
 
 /// On the wire: one byte of COBS, as frames are shorter than 254 bytes, and the zero that ends the frame.
