@@ -197,7 +197,7 @@ static void a_joint_is_held_back_until_its_lag_is_known(void)
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_SENSOR_BAD, body_joint(&f, 1u).head.reason);
     TEST_ASSERT_EQUAL_INT(JCAL_REASON_NO_DATA, body_joint(&f, 2u).head.reason);
     f.sensor_states[1].bad = 0u;
-    f.body.table.lag = NULL; /* sensors share one clock */
+    f.body.table.shared = NULL; /* sensors share one clock */
     TEST_ASSERT_EQUAL_INT(JCAL_READY, body_joint(&f, 1u).head.status);
     TEST_ASSERT_TRUE(body_joint(&f, 1u).lag_known);
 }
