@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 """A hub for tests of its senders: it speaks docs/PROTOCOL.md by the second implementation, remembers what came, and answers what it is told to."""
+import contextlib
 import socket
 import struct
 import threading
@@ -44,9 +45,10 @@ class FakeHub:
         self.server.close()
 
     def serve(self):
+        """Until the sender goes, which may be at any moment."""
         self.connection, _ = self.server.accept()
         rest = b""
-        with self.connection:
+        with self.connection, contextlib.suppress(ConnectionError):
             while data := self.connection.recv(4096):
                 *pieces, rest = (rest + data).split(b"\0")
                 for piece in filter(None, pieces):
@@ -115,7 +117,7 @@ class OldHub:
 
     def serve(self, version):
         connection, _ = self.server.accept()
-        with connection:
+        with connection, contextlib.suppress(ConnectionError):
             connection.recv(4096)
             body = struct.pack("<BBIB", version, hub.VERSION_TOLD, 0, hub.VERSION)
             connection.sendall(hub.stuff(body + struct.pack("<I", zlib.crc32(body))))

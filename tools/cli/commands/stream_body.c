@@ -373,6 +373,88 @@ static exit_status_t greet(run_t *run)
     return status;
 }
 
+/* ---- Kept records ---- */
+
+static exit_status_t file_trouble(const char *name, exit_status_t status)
+{
+    complain(name, 0, 0, "%s", strerror(errno));
+    return status;
+}
+
+/* Sends a question about what is kept, and waits for its answer. */
+static exit_status_t ask_kept(run_t *run, frame_type_t type, const frame_writer_t *payload)
+{
+    run->has_kept = false;
+    const exit_status_t status = hub_session_send_frame(&run->hub, type, payload);
+    return (status == EXIT_READY) ? hub_session_wait_for(&run->hub, &run->has_kept) : status;
+}
+
+static exit_status_t put_record(run_t *run, const uint8_t record[JCAL_KEPT_BYTES])
+{
+    message_put_kept_t message = {.token = ++run->hub.token};
+    frame_writer_t payload;
+    memcpy(message.bytes, record, sizeof message.bytes);
+    message_write_put_kept(&payload, &message);
+    const exit_status_t status = ask_kept(run, FRAME_PUT_KEPT, &payload);
+    if (status == EXIT_READY && run->kept.refusal != MESSAGE_KEPT_WRITTEN) {
+        complain(run->options->hub.target, 0, 0, "the hub does not keep a record of %s: %s",
+                 run->options->body.put_kept,
+                 (run->kept.refusal == MESSAGE_KEPT_FLASH_FAILED)
+                     ? "its flash failed, or it has none"
+                     : jcal_kept_refusal_string((jcal_kept_refusal_t)run->kept.refusal));
+        return EXIT_TROUBLE;
+    }
+    return status;
+}
+
+/* Records stand in a file one after the other. */
+static exit_status_t put_kept(run_t *run)
+{
+    const char *name = run->options->body.put_kept;
+    FILE *file = fopen(name, "rb");
+    if (file == NULL) {
+        return file_trouble(name, EXIT_INPUT);
+    }
+    uint8_t record[JCAL_KEPT_BYTES];
+    exit_status_t status = EXIT_READY;
+    size_t got = fread(record, 1, sizeof record, file);
+    for (; got == sizeof record && status == EXIT_READY; got = fread(record, 1, sizeof record, file)) {
+        status = put_record(run, record);
+    }
+    if (status == EXIT_READY && ferror(file) != 0) {
+        status = file_trouble(name, EXIT_TROUBLE);
+    } else if (status == EXIT_READY && got != 0) {
+        complain(name, 0, 0, "a record has %u bytes, and %zu are left over", JCAL_KEPT_BYTES, got);
+        status = EXIT_INPUT;
+    }
+    (void)fclose(file);
+    return status;
+}
+
+static exit_status_t get_kept(run_t *run)
+{
+    const char *name = run->options->body.get_kept;
+    FILE *file = fopen(name, "wb");
+    if (file == NULL) {
+        return file_trouble(name, EXIT_TROUBLE);
+    }
+    exit_status_t status = EXIT_READY;
+    for (unsigned k = 0; k < run->report.joint_count && status == EXIT_READY; k++) {
+        const message_ask_kept_t message = {.token = ++run->hub.token, .joint = (uint8_t)k};
+        frame_writer_t payload;
+        message_write_ask_kept(&payload, &message);
+        status = ask_kept(run, FRAME_GET_KEPT, &payload);
+        if (status == EXIT_READY && run->kept.refusal == (uint8_t)JCAL_KEPT_FITS) {
+            (void)fwrite(run->kept.bytes, 1, sizeof run->kept.bytes, file);
+        }
+    }
+    const bool failed = ferror(file) != 0;
+    if ((fclose(file) != 0 || failed) && status == EXIT_READY) {
+        status = file_trouble(name, EXIT_TROUBLE);
+    }
+    return status;
+}
+
 /* Until the packet is due, if the recording is played at its own pace. */
 static exit_status_t wait_due(run_t *run, int64_t arrival_us)
 {
@@ -501,7 +583,13 @@ static exit_status_t play(run_t *run)
     }
     tell_played(run);
     status = greet(run);
+    if (status == EXIT_READY && run->options->body.put_kept != NULL) {
+        status = put_kept(run);
+    }
     status = (status == EXIT_READY) ? send_packets(run) : status;
+    if (status == EXIT_READY && run->options->body.get_kept != NULL) {
+        status = get_kept(run);
+    }
     status = (status == EXIT_READY) ? finish(run) : status;
     hub_session_close(&run->hub);
     return status;
