@@ -40,10 +40,10 @@ typedef struct {
     uint32_t nonce;
     uint32_t unknown;
     uint32_t overrun;
-    uint64_t now_us;  ///< The hub's clock, as far as it was told.
+    uint64_t now_us;    ///< The hub's clock, as far as it was told.
     uint64_t heard_us;  ///< When the last byte came.
-    bool linked;      ///< A start or begin was received.
-    bool told;        ///< Another version was answered on this stream.
+    bool linked;        ///< A start or begin was received.
+    bool told;          ///< Another version was answered on this stream.
     hub_item_t queue[HUB_QUEUE];
     volatile uint32_t queued;
     volatile uint8_t refused_version;  ///< To be answered; 0: none.
@@ -57,9 +57,9 @@ typedef struct {
     } of;
     jcal_flash_t flash;
     bool has_flash;
-    bool flash_is_deaf;   ///< The processor stands still while flash is written.
+    bool flash_is_deaf;      ///< The processor stands still while flash is written.
     uint32_t item_sequence;  ///< Of the frame that is worked at.
-    uint32_t limit;       ///< Credit last given.
+    uint32_t limit;          ///< Credit last given.
     hub_out_t out;
 } hub_t;
 

@@ -45,7 +45,8 @@ static bool is_new(hub_body_t *self, uint32_t *has, unsigned number, unsigned co
 static uint16_t packets_of(uint8_t per_packet)
 {
     uint16_t packets = 2u;
-    while (packets < 256u && JCAL_PACKETS_STORAGE_BYTES(2u * packets, per_packet, JCAL_PACKET_RAW) <= HUB_PACKETS_BYTES) {
+    while (packets < 256u &&
+           JCAL_PACKETS_STORAGE_BYTES(2u * packets, per_packet, JCAL_PACKET_RAW) <= HUB_PACKETS_BYTES) {
         packets = (uint16_t)(2u * packets);
     }
     return packets;
@@ -211,7 +212,8 @@ static void get_kept(hub_body_t *self, const message_ask_kept_t *ask)
         answer_kept(self, ask->token, ask->joint, MESSAGE_KEPT_FLASH_FAILED);
         return;
     }
-    jcal_kept_refusal_t refusal = (ask->joint < HUB_JOINTS) ? jcal_keep_read(self->flash, ask->joint, &kept) : JCAL_KEPT_NONE;
+    jcal_kept_refusal_t refusal =
+        (ask->joint < HUB_JOINTS) ? jcal_keep_read(self->flash, ask->joint, &kept) : JCAL_KEPT_NONE;
     if (refusal == JCAL_KEPT_FITS && jcal_kept_encode(&kept, self->kept.bytes) != JCAL_OK) {
         refusal = JCAL_KEPT_DAMAGED;
     }

@@ -45,9 +45,9 @@ typedef enum {
 /// All members are private.
 typedef struct {
     message_begin_t begin;
-    bool running;                        ///< The table is complete and accepted.
-    bool has_refused;                    ///< It is not.
-    uint32_t has_sensors, has_joints;    ///< Bit n: number n of the table has come.
+    bool running;                      ///< The table is complete and accepted.
+    bool has_refused;                  ///< It is not.
+    uint32_t has_sensors, has_joints;  ///< Bit n: number n of the table has come.
     message_table_t table_answer;
     char names[HUB_SENSORS + HUB_JOINTS][MESSAGE_NAME_BYTES + 1u];
     jcal_packet_config_t packets[HUB_SENSORS];
@@ -66,8 +66,8 @@ typedef struct {
     uint64_t next_us;           ///< When states are due.
     uint64_t next_angles_us;    ///< When angles are due, of the body's time.
     bool has_time, has_angles_time;
-    bool is_live;  ///< The hub's own clock stamps packets.
-    bool is_held;  ///< Flash is to be written, but the sender may still be talking.
+    bool is_live;     ///< The hub's own clock stamps packets.
+    bool is_held;     ///< Flash is to be written, but the sender may still be talking.
     uint32_t pushed;  ///< Packets that were pushed.
     uint32_t token;   ///< Of the request that is answered.
     hub_body_phase_t phase;
