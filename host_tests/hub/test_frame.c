@@ -52,9 +52,9 @@ static size_t from_hex(const char *text, uint8_t *bytes, size_t room)
 
 static void check_vector(const char *line)
 {
-    char type[8], number[16], payload_hex[400], wire_hex[400];
+    char type[8], number[16], payload_hex[500], wire_hex[500];
     uint8_t payload[FRAME_PAYLOAD_MAX], wire[FRAME_WIRE_MAX], made[FRAME_WIRE_MAX];
-    TEST_ASSERT_EQUAL_INT(4, sscanf(line, "vector %7s %15s %399s %399s", type, number, payload_hex, wire_hex));
+    TEST_ASSERT_EQUAL_INT(4, sscanf(line, "vector %7s %15s %499s %499s", type, number, payload_hex, wire_hex));
     const size_t size = from_hex(payload_hex, payload, sizeof payload);
     const size_t wire_size = from_hex(wire_hex, wire, sizeof wire);
     const frame_type_t kind = (frame_type_t)strtoul(type, NULL, 16);
@@ -77,7 +77,7 @@ static void check_vector(const char *line)
 
 static void the_vectors_of_the_specification(void)
 {
-    char line[900];
+    char line[1100];
     unsigned count = 0;
     FILE *file = fopen("docs/PROTOCOL.md", "r");
     if (file == NULL) {
@@ -90,7 +90,7 @@ static void the_vectors_of_the_specification(void)
         }
     }
     (void)fclose(file);
-    TEST_ASSERT_EQUAL_UINT(8, count);
+    TEST_ASSERT_EQUAL_UINT(36, count);
 }
 
 static void crc_is_that_of_ieee_802_3(void)

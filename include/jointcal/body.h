@@ -58,7 +58,7 @@ extern "C" {
 /// Bytes of a body's state without packets' storage; of joints, the sum of the estimators' sizes. Usable in array sizes.
 #define JCAL_BODY_STATE_BYTES(sensor_count, joint_count, engines_bytes)                                                \
     (sizeof(jcal_body_t) + ((size_t)(sensor_count) * sizeof(jcal_body_sensor_t)) +                                     \
-     ((size_t)(joint_count) * sizeof(jcal_body_joint_t)) + (size_t)(engines_bytes) + sizeof(jcal_lag_t) +              \
+     ((size_t)(joint_count) * sizeof(jcal_body_joint_t)) + (size_t)(engines_bytes) + sizeof(jcal_body_shared_t) +      \
      sizeof(jcal_health_t))
 
 /// What happened.
@@ -71,7 +71,11 @@ typedef enum {
     JCAL_BODY_SENSOR_BAD = 5,   ///< Something is named of a sensor; `what` has the finding, `value` its fact.
     JCAL_BODY_SENSOR_FINE = 6,  ///< Nothing bad is named of a sensor any more.
     JCAL_BODY_SENSOR_LOST = 7,  ///< A sensor has been silent for a second.
-    JCAL_BODY_SENSOR_BACK = 8   ///< It sends again.
+    JCAL_BODY_SENSOR_BACK = 8,  ///< It sends again.
+    JCAL_BODY_REMEMBERED = 9,   ///< A calibration of a joint was kept; motion is to confirm it.
+    JCAL_BODY_CONFIRMED = 10,   ///< It still holds.
+    JCAL_BODY_DROPPED = 11,     ///< It does not; `what` has the reason of remember.h.
+    JCAL_BODY_KEPT = 12         ///< What is worth it was written to flash; of no joint and no sensor.
 } jcal_body_event_kind_t;
 
 /// What is known of a joint.
@@ -91,6 +95,9 @@ typedef struct {
     /// Ball and two axes: sensor 2 in sensor 1, as long; else all NaN.
     jcal_quat_t relative;
     float relative_bound_rad;  ///< 95 % bound of its heading; a right angle while unknown.
+    bool has_kept;             ///< A calibration of it was kept, whatever became of that:
+    jcal_remember_state_t kept;
+    jcal_remember_reason_t kept_reason;
 } jcal_body_joint_result_t;
 
 /// What became of a sensor. Common times that were = samples + missed, from its table's first common time on.
@@ -147,6 +154,26 @@ jcal_status_t jcal_body_event(jcal_body_t *self, jcal_body_event_t *out);
 
 /// What is known of a joint; best after step has returned JCAL_IDLE, for then all sensors tell of the same time. Errors: JCAL_ERR_ARG.
 jcal_status_t jcal_body_joint(const jcal_body_t *self, unsigned joint, jcal_body_joint_result_t *out);
+
+/// Puts a hinge that is ready to sleep, or wakes it: functional.h. Other joints do not sleep.
+/// Returns: JCAL_OK; JCAL_REJECTED (it is not ready, or no hinge); JCAL_ERR_ARG.
+jcal_status_t jcal_body_sleep(jcal_body_t *self, unsigned joint, bool asleep);
+
+/// True if a joint sleeps.
+bool jcal_body_sleeps(const jcal_body_t *self, unsigned joint);
+
+/// The calibration of a joint as it would be kept.
+///
+/// Returns:  JCAL_OK; JCAL_IDLE: the joint is not ready, or a serial number is not known; JCAL_ERR_ARG; out untouched.
+jcal_status_t jcal_body_kept(const jcal_body_t *self, unsigned joint, jcal_kept_t *out);
+
+/// True if something is worth a write, and the schedule of keep_flash.h allows it now. Looks at one joint a second.
+bool jcal_body_keep_due(jcal_body_t *self);
+
+/// Writes what is worth it to flash; the processor may stand still for as long as an erase takes.
+///
+/// Returns:  JCAL_OK; JCAL_IDLE: nothing is worth it; JCAL_ERR_FLASH: it failed, what was kept before stands; JCAL_ERR_ARG.
+jcal_status_t jcal_body_keep(jcal_body_t *self);
 
 /// What became of a sensor. Errors: JCAL_ERR_ARG.
 jcal_status_t jcal_body_sensor(const jcal_body_t *self, unsigned sensor, jcal_body_sensor_result_t *out);

@@ -19,9 +19,11 @@
 #include "jointcal/ball.h"
 #include "jointcal/functional.h"
 #include "jointcal/health.h"
+#include "jointcal/keep_flash.h"
 #include "jointcal/lag.h"
 #include "jointcal/packet.h"
 #include "jointcal/private/body/state.h"
+#include "jointcal/remember.h"
 #include "jointcal/two_axes.h"
 
 #include <stddef.h>
@@ -49,12 +51,22 @@ typedef union {
     jcal_two_axes_t *two_axes;
 } jcal_body_engine_t;
 
+/// Kept calibrations that are looked at at a time.
+#define JCAL_BODY_LOOKS JCAL_BODY_PLACES
+
+/// Memory for what is looked at at the beginning, kept calibrations, and later the lag of one joint after the other. All members are private.
+typedef union {
+    jcal_lag_t lag;
+    jcal_remember_t remember[JCAL_BODY_LOOKS];
+} jcal_body_shared_t;
+
 /// A sensor.
 typedef struct {
     const char *name;                     ///< For sentences; null: its number.
     const jcal_packet_config_t *packets;  ///< How its packets are made.
     void *storage;                        ///< Packets that wait; JCAL_PACKETS_STORAGE_BYTES of packet.h.
     size_t storage_bytes;  ///< Room for wait_s, what comes between two steps, and the largest lag is enough.
+    uint64_t serial;       ///< Serial number; 0: not known, and nothing of its joints is kept or remembered.
 } jcal_body_sensor_spec_t;
 
 /// A joint.
@@ -74,8 +86,10 @@ typedef struct {
     const jcal_body_joint_spec_t *joints;
     jcal_body_joint_t *joint_states;  ///< joint_count of them.
     unsigned joint_count;             ///< 1 to JCAL_BODY_JOINTS_MAX.
-    jcal_lag_t *lag;                  ///< One for all joints; null: sensors share one clock, no lag is looked for.
-    jcal_health_t *health;            ///< One for all sensors; null: none is examined.
+    jcal_body_shared_t
+        *shared;  ///< One for all joints; null: sensors share one clock, no lag is looked for, nothing is remembered.
+    jcal_health_t *health;      ///< One for all sensors; null: none is examined.
+    const jcal_flash_t *flash;  ///< Where calibrations are kept; null: nowhere.
 } jcal_body_table_t;
 
 /// Settings of a body.

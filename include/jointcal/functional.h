@@ -86,6 +86,33 @@ float jcal_functional_flexion(const jcal_functional_t *self, jcal_quat_t orienta
 /// The error that axes off by `bound_rad` make in the joint's angle, rad rms: F of docs/METHOD_PEOPLE.md; a right angle while unknown.
 float jcal_functional_flexion_error(const jcal_functional_t *self, float bound_rad);
 
+/// Puts a joint that is ready to sleep, or wakes it. Asleep nothing is learnt: the heading is followed, and slips are watched for; a slip
+/// wakes it, and it begins anew. Awake, it learns on; if what it has was adopted, it begins with nothing.
+///
+/// Returns:  JCAL_OK; JCAL_REJECTED (to sleep: it is not ready); JCAL_ERR_ARG.
+/// Cost:     asleep an add takes 700 instructions on a Cortex-M4F at 20 ticks a second, a step 20.
+jcal_status_t jcal_functional_sleep(jcal_functional_t *self, bool asleep);
+
+/// True if it sleeps; false for null.
+bool jcal_functional_sleeps(const jcal_functional_t *self);
+
+/// A calibration that is known from elsewhere: kept over night, and confirmed by motion (remember.h).
+typedef struct {
+    jcal_vec3_t axis1, axis2;  ///< Unit axes; their signs are the pairing.
+    jcal_vec3_t joint_to_sensor1_m, joint_to_sensor2_m;
+    float uncertainty1_rad, uncertainty2_rad;  ///< 95 % bounds.
+    float flexion_uncertainty_rad;             ///< Error that the axes make in the angle, rms.
+    float usual[3];                            ///< Mean squares of its residuals, above zero: jcal_functional_usual.
+} jcal_functional_known_t;
+
+/// Forgets all data and takes over what is known: the joint is ready with it, and asleep.
+///
+/// Returns:  JCAL_OK; JCAL_REJECTED: the bounds are too wide for any use that the config has, and nothing is changed; JCAL_ERR_ARG.
+JCAL_MUST_CHECK jcal_status_t jcal_functional_adopt(jcal_functional_t *self, const jcal_functional_known_t *known);
+
+/// Mean squares of the residuals so far, of direction, rate and the centre's velocity: rad^2, 1, (m/s)^2. Errors: JCAL_ERR_ARG.
+jcal_status_t jcal_functional_usual(const jcal_functional_t *self, float usual[3]);
+
 /// Forgets all data, keeps the config. Errors: JCAL_ERR_ARG.
 jcal_status_t jcal_functional_reset(jcal_functional_t *self);
 

@@ -40,6 +40,8 @@ extern "C" {
 
 /// Bytes of a record.
 #define JCAL_KEPT_BYTES 128u
+/// Largest lag, s.
+#define JCAL_KEPT_LAG_MAX_S 10.0f
 /// Version of its layout.
 #define JCAL_KEPT_VERSION 1u
 
@@ -62,6 +64,8 @@ typedef struct {
     uint8_t joint;                ///< Place in the hub's table, 0 to JCAL_KEEP_JOINTS_MAX - 1.
     bool has_levers;              ///< Levers and their bounds are known.
     bool has_zero;                ///< The user set a zero: zeros, or frames of a ball joint, are known.
+    bool has_lag;                 ///< The lag of sensor 2 was known.
+    bool has_usual;               ///< What residuals are usual is known.
 
     jcal_vec3_t axis1, axis2;  ///< Hinge, two axes: unit axes. Their signs are the pairing and the sense of the angles.
     float bound1_rad, bound2_rad;          ///< Their 95 % bounds, 0 to JCAL_BOUND_UNKNOWN_RAD.
@@ -71,6 +75,10 @@ typedef struct {
     float flexion_zero_rad,
         pronation_zero_rad;  ///< Angles by jcal_frames_hinge or _two_dof in the zero pose: `is` of jcal_frames_zero.
     jcal_joint_frames_t frames;  ///< Ball: segment frames from a pose.
+    float lag_s,
+        lag_bound_s;  ///< The times of sensor 2 were late by it, within JCAL_KEPT_LAG_MAX_S; its 95 % bound, up to as much.
+    float usual
+        [3];  ///< Mean squares of the functional joint's residuals, up to 1e3: what the watch for slips compares with.
 } jcal_kept_t;
 
 /// What a record is asked for.
@@ -109,7 +117,7 @@ JCAL_MUST_CHECK jcal_kept_refusal_t jcal_kept_decode(const uint8_t bytes[JCAL_KE
 /// `fits`, `none`, `damaged`, `other_version`, `other_kind`, `other_sensors`; never null.
 const char *jcal_kept_refusal_string(jcal_kept_refusal_t refusal);
 
-/// Fills in what a result says; joint, sequence, serial numbers and zero stay as they are.
+/// Fills in what a result says; joint, sequence, serial numbers, zero and lag stay as they are.
 ///
 /// Errors:   JCAL_ERR_ARG: null, or the result is not ready; out untouched.
 JCAL_MUST_CHECK jcal_status_t jcal_kept_from_hinge(const jcal_hinge_auto_result_t *result, jcal_kept_t *out);

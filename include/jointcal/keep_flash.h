@@ -80,6 +80,9 @@ JCAL_MUST_CHECK jcal_status_t jcal_keep_commit(jcal_keep_writer_t *self);
 JCAL_MUST_CHECK jcal_kept_refusal_t jcal_keep_load(const jcal_flash_t *flash, const jcal_kept_wanted_t *wanted,
                                                    jcal_kept_t *out);
 
+/// The newest record of a joint, of whatever kind and sensors; as jcal_keep_load otherwise.
+JCAL_MUST_CHECK jcal_kept_refusal_t jcal_keep_read(const jcal_flash_t *flash, unsigned joint, jcal_kept_t *out);
+
 /// Number of writes so far; each slot has been erased about half as often. 0 if there is no image.
 uint32_t jcal_keep_writes(const jcal_flash_t *flash);
 

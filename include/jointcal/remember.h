@@ -85,6 +85,9 @@ jcal_status_t jcal_remember_step(jcal_remember_t *self);
 /// axis, and each lever with a bound, is within the root of both bounds' squares; else it is dropped. Errors: JCAL_ERR_ARG.
 jcal_status_t jcal_remember_settle(jcal_remember_t *self, const jcal_kept_t *now);
 
+/// True if two records are of one joint as far as their bounds tell: what jcal_remember_settle asks. False for null.
+bool jcal_remember_agrees(const jcal_kept_t *kept, const jcal_kept_t *now);
+
 /// Copies what is said. Errors: JCAL_ERR_ARG.
 jcal_status_t jcal_remember_get(const jcal_remember_t *self, jcal_remember_result_t *out);
 

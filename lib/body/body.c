@@ -9,6 +9,7 @@
 #include "body/look.h"
 #include "body/probe.h"
 #include "body/report.h"
+#include "body/restore.h"
 #include "body/round.h"
 #include "math/clear.h"
 
@@ -25,6 +26,8 @@
 /// Units of a slice, of a joint or of the lag, and of a look.
 #define SLICE_UNITS 2u
 #define LOOK_UNITS 1u
+/// Of a kept calibration: a slice of its look, or its record.
+#define KEPT_UNITS 2u
 
 static uint32_t in_periods(float time_s, float period_s)
 {
@@ -58,7 +61,7 @@ static void begin_joint(const jcal_body_table_t *table, unsigned j)
     const jcal_body_joint_spec_t *const spec = &table->joints[j];
     jcal_body_joint_t *const state = &table->joint_states[j];
     jcal_clear(state, sizeof *state);
-    state->lag_bound_s = (table->lag == NULL) ? 0.0f : JCAL_LAG_UNKNOWN_S;
+    state->lag_bound_s = (table->shared == NULL) ? 0.0f : JCAL_LAG_UNKNOWN_S;
     table->sensor_states[spec->distal].joint = (uint8_t)j;
     jcal_body_engine_reset(spec);
 }
@@ -84,6 +87,7 @@ jcal_status_t jcal_body_init(jcal_body_t *self, const jcal_body_table_t *table, 
     self->table = *table;
     set_pace(&self->pace, config);
     self->probe.joint = JCAL_BODY_NONE;
+    jcal_body_restore_begin(self);
     self->is_ready = true;
     return (table->health == NULL) ? JCAL_OK : jcal_health_init(table->health);
 }
@@ -114,7 +118,7 @@ static unsigned step_joint(jcal_body_t *self, unsigned j)
     return 0u;
 }
 
-/// Work for a joint, or, at their end, for the lag and the examination.
+/// Work for a joint, or, at their end, for kept calibrations, the lag and the examination.
 static unsigned step_one(jcal_body_t *self, unsigned at)
 {
     if (at < self->table.joint_count) {
@@ -123,14 +127,17 @@ static unsigned step_one(jcal_body_t *self, unsigned at)
     if (at == self->table.joint_count) {
         return jcal_body_probe_step(self) ? SLICE_UNITS : 0u;
     }
-    const bool looked = (at == (self->table.joint_count + 1u)) ? jcal_body_probe_look(self) : jcal_body_exam_look(self);
+    if (at == (self->table.joint_count + 1u)) {
+        return jcal_body_restore_step(self) ? KEPT_UNITS : 0u;
+    }
+    const bool looked = (at == (self->table.joint_count + 2u)) ? jcal_body_probe_look(self) : jcal_body_exam_look(self);
     return looked ? LOOK_UNITS : 0u;
 }
 
 /// The next slice of those that have waited longest; 0 if none is due.
 static unsigned step_slice(jcal_body_t *self)
 {
-    const unsigned count = self->table.joint_count + 3u;
+    const unsigned count = self->table.joint_count + 4u;
     for (unsigned k = 0u; k < count; ++k) {
         const unsigned at = self->next;
         self->next = (uint8_t)((at + 1u) % count);
@@ -172,6 +179,24 @@ jcal_status_t jcal_body_event(jcal_body_t *self, jcal_body_event_t *out)
         return JCAL_ERR_ARG;
     }
     return jcal_body_events_take(&self->events, out) ? JCAL_OK : JCAL_IDLE;
+}
+
+jcal_status_t jcal_body_sleep(jcal_body_t *self, unsigned joint, bool asleep)
+{
+    if ((self == NULL) || !self->is_ready || (joint >= self->table.joint_count)) {
+        return JCAL_ERR_ARG;
+    }
+    const jcal_body_joint_spec_t *const spec = &self->table.joints[joint];
+    if (spec->kind != JCAL_BODY_HINGE) {
+        return asleep ? JCAL_REJECTED : JCAL_OK;
+    }
+    return jcal_functional_sleep(spec->engine.hinge, asleep);
+}
+
+bool jcal_body_sleeps(const jcal_body_t *self, unsigned joint)
+{
+    return (self != NULL) && self->is_ready && (joint < self->table.joint_count) &&
+           jcal_body_engine_sleeps(&self->table.joints[joint]);
 }
 
 /// True if the stage's orientation is of the epoch from which the joint's engine took its last tick: after a gap its heading is another.

@@ -18,6 +18,19 @@ bool jcal_body_engine_step(const jcal_body_joint_spec_t *joint);
 /// What it says; `heading` and everything before. Angles and the lag are not its business, and untouched.
 void jcal_body_engine_get(const jcal_body_joint_spec_t *joint, jcal_body_joint_result_t *out);
 
+/// Which record is kept of it.
+jcal_kept_kind_t jcal_body_engine_kind(const jcal_body_joint_spec_t *joint);
+
+/// What it says as a record, whose joint, serial numbers, zero and lag stay as they are; false if it is not ready.
+bool jcal_body_engine_kept(const jcal_body_joint_spec_t *joint, jcal_kept_t *out);
+
+/// A hinge takes over a kept calibration that was confirmed, with the bounds of that, unless it is ready by itself or they are too wide. Others do not. True if it did.
+bool jcal_body_engine_adopt(const jcal_body_joint_spec_t *joint, const jcal_kept_t *kept,
+                            const jcal_remember_result_t *confirmed);
+
+/// True if it sleeps.
+bool jcal_body_engine_sleeps(const jcal_body_joint_spec_t *joint);
+
 /// The angle of a hinge, rad; NaN of others.
 float jcal_body_engine_flexion(const jcal_body_joint_spec_t *joint, jcal_quat_t q1, jcal_quat_t q2);
 

@@ -6,6 +6,7 @@
 #include "body/engine.h"
 #include "body/events.h"
 #include "body/report.h"
+#include "body/restore.h"
 
 /// Looks, four a second, at which the engine must have said more often than not that this is not one joint before it is told; and those, once
 /// it is, that it must not say so before it is believed again: a minute. A look that says so then counts as so many others.
@@ -42,6 +43,9 @@ void jcal_body_look(jcal_body_t *self, unsigned joint)
     jcal_body_joint_t *const state = &self->table.joint_states[joint];
     jcal_body_joint_result_t result;
     jcal_body_engine_get(&self->table.joints[joint], &result);
+    if (result.head.status == JCAL_READY) {
+        jcal_body_restore_settle(self, joint);
+    }
     const bool fits_nothing = state->no_lag && (result.head.reason == JCAL_REASON_DOES_NOT_FIT);
     doubt(self, joint, fits_nothing || (result.head.reason == JCAL_REASON_NOT_ONE_JOINT));
     jcal_body_report(self, joint, &result);

@@ -4,6 +4,7 @@
 #include "body/probe.h"
 
 #include "body/events.h"
+#include "body/restore.h"
 #include "body/tree.h"
 
 #include <math.h>
@@ -61,8 +62,11 @@ static void choose(jcal_body_t *self)
 {
     jcal_body_probe_t *const probe = &self->probe;
     const unsigned joint = next_joint(self);
+    if (jcal_body_restore_first(self)) {
+        return;
+    }
     const bool waits = (self->round.number - probe->since) >= rounds_of(self, AGAIN_US);
-    if ((waits || !self->table.joint_states[joint].lag_known) && (jcal_lag_init(self->table.lag) == JCAL_OK)) {
+    if ((waits || !self->table.joint_states[joint].lag_known) && (jcal_lag_init(&self->table.shared->lag) == JCAL_OK)) {
         probe->joint = (uint8_t)joint;
         probe->since = self->round.number;
     }
@@ -70,14 +74,14 @@ static void choose(jcal_body_t *self)
 
 void jcal_body_probe_add(jcal_body_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
 {
-    (void)jcal_lag_add(self->table.lag, tick1, tick2);
+    (void)jcal_lag_add(&self->table.shared->lag, tick1, tick2);
 }
 
 /// Takes off what is to be taken off.
 static void align(jcal_body_t *self)
 {
     jcal_body_joint_t *const state = &self->table.joint_states[self->probe.joint];
-    const float off_s = jcal_lag_take(self->table.lag);
+    const float off_s = jcal_lag_take(&self->table.shared->lag);
     if (off_s == 0.0f) {
         return;
     }
@@ -99,7 +103,7 @@ bool jcal_body_probe_step(jcal_body_t *self)
         return false;
     }
     self->probe.due = false;
-    if (jcal_lag_step(self->table.lag) != JCAL_OK) {
+    if (jcal_lag_step(&self->table.shared->lag) != JCAL_OK) {
         return false;
     }
     align(self);
@@ -113,6 +117,7 @@ static void found(jcal_body_t *self, const jcal_lag_result_t *result)
     const bool is_new = !state->lag_known;
     state->lag_known = true;
     state->no_lag = false;
+    state->lag_is_kept = false;
     state->against = state->not_one ? state->against : 0u; /* with times as they were it said so rightly */
     state->lag_bound_s = result->bound_s;
     if (is_new) {
@@ -124,7 +129,7 @@ static void found(jcal_body_t *self, const jcal_lag_result_t *result)
 bool jcal_body_probe_look(jcal_body_t *self)
 {
     jcal_body_probe_t *const probe = &self->probe;
-    if ((self->table.lag == NULL) || ((self->round.number - probe->looked) < rounds_of(self, LOOK_US))) {
+    if ((self->table.shared == NULL) || ((self->round.number - probe->looked) < rounds_of(self, LOOK_US))) {
         return false;
     }
     probe->looked = self->round.number;
@@ -133,7 +138,7 @@ bool jcal_body_probe_look(jcal_body_t *self)
         return true;
     }
     jcal_lag_result_t result;
-    (void)jcal_lag_get(self->table.lag, &result);
+    (void)jcal_lag_get(&self->table.shared->lag, &result);
     const uint32_t since = self->round.number - probe->since;
     const bool is_still =
         (since >= rounds_of(self, STILL_US)) && (result.taken_s == 0.0f) && (result.motion_s < MOTION_MIN_S);

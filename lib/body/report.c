@@ -4,6 +4,7 @@
 #include "body/report.h"
 
 #include "body/engine.h"
+#include "body/restore.h"
 #include "body/trust.h"
 
 #include <math.h>
@@ -24,6 +25,7 @@ void jcal_body_report(const jcal_body_t *self, unsigned joint, jcal_body_joint_r
     out->lag_known = trust.lag_known;
     out->lag_s = state->lag_s;
     out->lag_bound_s = state->lag_bound_s;
+    jcal_body_restore_report(self, joint, out);
     out->flexion_rad = NAN;
     out->relative = unknown;
 }

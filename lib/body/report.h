@@ -9,7 +9,7 @@
 /// True if the lag of a joint is known, or none is looked for.
 static inline bool jcal_body_in_step(const jcal_body_t *self, unsigned joint)
 {
-    return (self->table.lag == NULL) || self->table.joint_states[joint].lag_known;
+    return (self->table.shared == NULL) || self->table.joint_states[joint].lag_known;
 }
 
 /// Everything but angles, which are NaN; the head as it is believed, its time that of the hub.

@@ -8,6 +8,7 @@
 #include "body/exam.h"
 #include "body/line.h"
 #include "body/probe.h"
+#include "body/restore.h"
 #include "math/scalar.h"
 
 #include <stddef.h>
@@ -222,6 +223,7 @@ static bool add_to_joint(jcal_body_t *self, unsigned j)
         return false;
     }
     jcal_body_engine_add(joint, ticks[0], ticks[1]);
+    jcal_body_restore_add(self, j, ticks[0], ticks[1]);
     state->epoch1 = ticks[0]->epoch;
     state->epoch2 = ticks[1]->epoch;
     state->due = true;

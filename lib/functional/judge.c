@@ -138,6 +138,12 @@ static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
     }
 }
 
+bool jcal_functional_is_for_flexion(float flexion_rad, float bound_rad, const jcal_functional_config_t *cfg,
+                                    float slack)
+{
+    return (flexion_rad <= (slack * cfg->max_flexion_rad)) && (bound_rad <= (slack * BOUND_FOR_FLEXION_RAD));
+}
+
 void jcal_functional_judge(jcal_functional_t *self)
 {
     jcal_functional_verdict_t *const verdict = &self->verdict;
@@ -146,8 +152,7 @@ void jcal_functional_judge(jcal_functional_t *self)
     const float bound = jcal_max(verdict->bound1_rad, verdict->bound2_rad);
     verdict->flexion_rad = jcal_functional_flexion_error(self, bound);
     verdict->for_axes = bound <= (slack * self->cfg.max_bound_rad);
-    verdict->for_flexion =
-        (verdict->flexion_rad <= (slack * self->cfg.max_flexion_rad)) && (bound <= (slack * BOUND_FOR_FLEXION_RAD));
+    verdict->for_flexion = jcal_functional_is_for_flexion(verdict->flexion_rad, bound, &self->cfg, slack);
     const jcal_reason_t against = find_objection(self, slack);
     const jcal_reason_t found = find_reason(self, slack, against);
     verdict->is_one_axis =

@@ -118,6 +118,19 @@ static void cut(jcal_functional_t *self)
     jcal_functional_track_clear(self);
 }
 
+/// What a sleeping joint does with ticks.
+static void follow(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2, jcal_ticks_t kind)
+{
+    if (kind == JCAL_TICKS_ANEW) {
+        jcal_functional_track_clear(self);
+    } else if ((kind == JCAL_TICKS_GO_ON) && !jcal_ticks_are_cold(tick1, tick2)) {
+        const jcal_tick_weights_t weights = jcal_ticks_weigh(&self->ticks, tick1, tick2);
+        jcal_functional_track_add(self, tick1, tick2, weights.motion_s);
+    } else {
+        /* left out */
+    }
+}
+
 jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
 {
     if ((self == NULL) || (tick1 == NULL) || (tick2 == NULL)) {
@@ -126,6 +139,10 @@ jcal_status_t jcal_functional_add(jcal_functional_t *self, const jcal_tick_t *ti
     const jcal_ticks_t kind = jcal_ticks_take(&self->ticks, tick1, tick2);
     if (kind == JCAL_TICKS_REJECTED) {
         return JCAL_REJECTED;
+    }
+    if (self->asleep) {
+        follow(self, tick1, tick2, kind);
+        return JCAL_OK;
     }
     if ((kind == JCAL_TICKS_GO_ON) && !jcal_ticks_are_cold(tick1, tick2)) {
         const jcal_tick_weights_t weights = jcal_ticks_weigh(&self->ticks, tick1, tick2);
@@ -259,10 +276,43 @@ static bool tend(jcal_functional_t *self)
     return false;
 }
 
+/// A sleeping joint looks for a slip, which wakes it.
+static jcal_status_t watch(jcal_functional_t *self)
+{
+    if (!jcal_functional_track_alarm(&self->track)) {
+        return JCAL_IDLE;
+    }
+    begin_anew(self);
+    return JCAL_OK;
+}
+
+jcal_status_t jcal_functional_sleep(jcal_functional_t *self, bool asleep)
+{
+    if (self == NULL) {
+        return JCAL_ERR_ARG;
+    }
+    if (asleep == self->asleep) {
+        return JCAL_OK;
+    }
+    if (asleep) {
+        self->asleep = self->verdict.status == (uint8_t)JCAL_READY;
+        return self->asleep ? JCAL_OK : JCAL_REJECTED;
+    }
+    self->asleep = false;
+    if (self->adopted) {
+        return jcal_functional_reset(self);
+    }
+    cut(self); /* headings of before are not those of now */
+    return JCAL_OK;
+}
+
 jcal_status_t jcal_functional_step(jcal_functional_t *self)
 {
     if (self == NULL) {
         return JCAL_ERR_ARG;
+    }
+    if (self->asleep) {
+        return watch(self);
     }
     if (!(self->credit >= 1.0f)) {
         return JCAL_IDLE;

@@ -35,7 +35,9 @@ enum {
     AT_BOUND_LEVER1 = 88,
     AT_BOUND_LEVER2 = 92,
     AT_ZERO = 96,
-    AT_NOTHING = 104,
+    AT_LAG = 104,
+    AT_BOUND_LAG = 108,
+    AT_USUAL = 112,
     AT_CRC = 124
 };
 
@@ -43,12 +45,16 @@ enum {
 #define FLAG_BY_CENTER 2u
 #define FLAG_LEVERS 4u
 #define FLAG_ZERO 8u
-#define FLAGS_ALL 15u
+#define FLAG_LAG 16u
+#define FLAG_USUAL 32u
+#define FLAGS_ALL 63u
 
 /// Longest component of a lever, m.
 #define LEVER_MAX_M 10.0f
 /// Largest magnitude of a zero, rad: half a turn, rounded up.
 #define ZERO_MAX_RAD 3.1416f
+/// Largest mean square of residuals.
+#define USUAL_MAX 1e3f
 
 static bool is_axis(jcal_vec3_t axis)
 {
@@ -96,6 +102,18 @@ static bool has_valid_frames(const jcal_kept_t *kept)
     return !kept->has_zero || (is_quat(kept->frames.q_b1_s1) && is_quat(kept->frames.q_b2_s2));
 }
 
+static bool has_valid_lag(const jcal_kept_t *kept)
+{
+    return !kept->has_lag || (jcal_within(kept->lag_s, -JCAL_KEPT_LAG_MAX_S, JCAL_KEPT_LAG_MAX_S) &&
+                              is_bound(kept->lag_bound_s, JCAL_KEPT_LAG_MAX_S));
+}
+
+static bool has_valid_usual(const jcal_kept_t *kept)
+{
+    return !kept->has_usual || (is_bound(kept->usual[0], USUAL_MAX) && is_bound(kept->usual[1], USUAL_MAX) &&
+                                is_bound(kept->usual[2], USUAL_MAX));
+}
+
 bool jcal_kept_is_valid(const jcal_kept_t *kept)
 {
     if (kept == NULL) {
@@ -104,7 +122,7 @@ bool jcal_kept_is_valid(const jcal_kept_t *kept)
     const bool has_levers = !kept->has_levers || (is_lever(kept->lever1_m) && is_lever(kept->lever2_m) &&
                                                   is_bound(kept->bound_lever1_m, JCAL_BOUND_UNKNOWN_M) &&
                                                   is_bound(kept->bound_lever2_m, JCAL_BOUND_UNKNOWN_M));
-    return has_valid_names(kept) && has_levers &&
+    return has_valid_names(kept) && has_levers && has_valid_lag(kept) && has_valid_usual(kept) &&
            ((kept->kind == JCAL_KEPT_BALL) ? has_valid_frames(kept) : has_valid_axes(kept));
 }
 
@@ -115,6 +133,8 @@ static uint8_t flags_of(const jcal_kept_t *kept)
     flags |= (kept->heading == JCAL_KEPT_HEADING_BY_CENTER) ? FLAG_BY_CENTER : 0u;
     flags |= kept->has_levers ? FLAG_LEVERS : 0u;
     flags |= kept->has_zero ? FLAG_ZERO : 0u;
+    flags |= kept->has_lag ? FLAG_LAG : 0u;
+    flags |= kept->has_usual ? FLAG_USUAL : 0u;
     return (uint8_t)flags;
 }
 
@@ -139,6 +159,17 @@ static void put_levers(const jcal_kept_t *kept, uint8_t *bytes)
     jcal_put_vec3(bytes + AT_LEVER2, kept->lever2_m);
     jcal_put_f32(bytes + AT_BOUND_LEVER1, kept->bound_lever1_m);
     jcal_put_f32(bytes + AT_BOUND_LEVER2, kept->bound_lever2_m);
+}
+
+static void put_residuals(const jcal_kept_t *kept, uint8_t *bytes)
+{
+    if (kept->has_lag) {
+        jcal_put_f32(bytes + AT_LAG, kept->lag_s);
+        jcal_put_f32(bytes + AT_BOUND_LAG, kept->lag_bound_s);
+    }
+    for (unsigned f = 0u; kept->has_usual && (f < 3u); ++f) {
+        jcal_put_f32(bytes + AT_USUAL + (4u * f), kept->usual[f]);
+    }
 }
 
 jcal_status_t jcal_kept_encode(const jcal_kept_t *kept, uint8_t bytes[JCAL_KEPT_BYTES])
@@ -166,6 +197,7 @@ jcal_status_t jcal_kept_encode(const jcal_kept_t *kept, uint8_t bytes[JCAL_KEPT_
     if (kept->has_levers) {
         put_levers(kept, bytes);
     }
+    put_residuals(kept, bytes);
     jcal_put_u32(bytes + AT_CRC, jcal_crc32(bytes, AT_CRC));
     return JCAL_OK;
 }
@@ -190,6 +222,8 @@ static void get_all(jcal_kept_t *kept, const uint8_t *bytes)
     kept->heading = ((flags & FLAG_BY_CENTER) != 0u) ? JCAL_KEPT_HEADING_BY_CENTER : JCAL_KEPT_HEADING_BY_AXES;
     kept->has_levers = (flags & FLAG_LEVERS) != 0u;
     kept->has_zero = (flags & FLAG_ZERO) != 0u;
+    kept->has_lag = (flags & FLAG_LAG) != 0u;
+    kept->has_usual = (flags & FLAG_USUAL) != 0u;
     kept->joint = bytes[AT_JOINT];
     kept->sequence = jcal_get_u32(bytes + AT_SEQUENCE);
     kept->serial1 = jcal_get_u64(bytes + AT_SERIAL1);
@@ -205,6 +239,13 @@ static void get_all(jcal_kept_t *kept, const uint8_t *bytes)
         kept->lever2_m = jcal_get_vec3(bytes + AT_LEVER2);
         kept->bound_lever1_m = jcal_get_f32(bytes + AT_BOUND_LEVER1);
         kept->bound_lever2_m = jcal_get_f32(bytes + AT_BOUND_LEVER2);
+    }
+    if (kept->has_lag) {
+        kept->lag_s = jcal_get_f32(bytes + AT_LAG);
+        kept->lag_bound_s = jcal_get_f32(bytes + AT_BOUND_LAG);
+    }
+    for (unsigned f = 0u; kept->has_usual && (f < 3u); ++f) {
+        kept->usual[f] = jcal_get_f32(bytes + AT_USUAL + (4u * f));
     }
 }
 

@@ -200,11 +200,29 @@ jcal_status_t jcal_keep_commit(jcal_keep_writer_t *self)
     return status;
 }
 
-static jcal_kept_refusal_t load_from(const jcal_flash_t *flash, unsigned slot, const jcal_kept_wanted_t *wanted,
-                                     jcal_kept_t *out)
+/// `wanted` null: of whatever kind and sensors.
+static jcal_kept_refusal_t load_from(const jcal_flash_t *flash, unsigned slot, unsigned joint,
+                                     const jcal_kept_wanted_t *wanted, jcal_kept_t *out)
 {
     uint8_t bytes[JCAL_KEPT_BYTES];
-    return read_record(flash, slot, wanted->joint, bytes) ? jcal_kept_decode(bytes, wanted, out) : JCAL_KEPT_DAMAGED;
+    return read_record(flash, slot, joint, bytes) ? jcal_kept_decode(bytes, wanted, out) : JCAL_KEPT_DAMAGED;
+}
+
+static jcal_kept_refusal_t load(const jcal_flash_t *flash, unsigned joint, const jcal_kept_wanted_t *wanted,
+                                jcal_kept_t *out)
+{
+    head_t head;
+    const unsigned slot = newest(flash, &head);
+    if ((slot == SLOTS) || (joint >= head.joints)) {
+        return JCAL_KEPT_NONE;
+    }
+    const jcal_kept_refusal_t refusal = load_from(flash, slot, joint, wanted, out);
+    const head_t older = read_head(flash, 1u - slot);
+    if ((refusal == JCAL_KEPT_DAMAGED) && older.is_valid && (joint < older.joints) &&
+        (load_from(flash, 1u - slot, joint, wanted, out) == JCAL_KEPT_FITS)) {
+        return JCAL_KEPT_FITS;
+    }
+    return refusal;
 }
 
 jcal_kept_refusal_t jcal_keep_load(const jcal_flash_t *flash, const jcal_kept_wanted_t *wanted, jcal_kept_t *out)
@@ -212,18 +230,12 @@ jcal_kept_refusal_t jcal_keep_load(const jcal_flash_t *flash, const jcal_kept_wa
     if (!is_port(flash) || (wanted == NULL) || (out == NULL)) {
         return JCAL_KEPT_DAMAGED;
     }
-    head_t head;
-    const unsigned slot = newest(flash, &head);
-    if ((slot == SLOTS) || (wanted->joint >= head.joints)) {
-        return JCAL_KEPT_NONE;
-    }
-    const jcal_kept_refusal_t refusal = load_from(flash, slot, wanted, out);
-    const head_t older = read_head(flash, 1u - slot);
-    if ((refusal == JCAL_KEPT_DAMAGED) && older.is_valid && (wanted->joint < older.joints) &&
-        (load_from(flash, 1u - slot, wanted, out) == JCAL_KEPT_FITS)) {
-        return JCAL_KEPT_FITS;
-    }
-    return refusal;
+    return load(flash, wanted->joint, wanted, out);
+}
+
+jcal_kept_refusal_t jcal_keep_read(const jcal_flash_t *flash, unsigned joint, jcal_kept_t *out)
+{
+    return (is_port(flash) && (out != NULL)) ? load(flash, joint, NULL, out) : JCAL_KEPT_DAMAGED;
 }
 
 uint32_t jcal_keep_writes(const jcal_flash_t *flash)

@@ -12,7 +12,7 @@
 #define ZERO_RAD 0.0349f
 #define COS_HALF_ZERO 0.99985f
 
-/// What all kinds share, from `out`: who and where it is.
+/// What all kinds share, from `out`: who and where it is, and what a result does not hold.
 static jcal_kept_t begin(const jcal_kept_t *out, jcal_kept_kind_t kind, jcal_model_t model)
 {
     jcal_kept_t kept = {0};
@@ -26,6 +26,9 @@ static jcal_kept_t begin(const jcal_kept_t *out, jcal_kept_kind_t kind, jcal_mod
     kept.has_zero = out->has_zero;
     kept.flexion_zero_rad = out->flexion_zero_rad;
     kept.pronation_zero_rad = out->pronation_zero_rad;
+    kept.has_lag = out->has_lag;
+    kept.lag_s = out->lag_s;
+    kept.lag_bound_s = out->lag_bound_s;
     return kept;
 }
 

@@ -274,6 +274,12 @@ static bool has_same_levers(const jcal_kept_t *a, const jcal_kept_t *b)
             is_near(a->lever2_m, b->lever2_m, a->bound_lever2_m, b->bound_lever2_m));
 }
 
+bool jcal_remember_agrees(const jcal_kept_t *kept, const jcal_kept_t *now)
+{
+    return (kept != NULL) && (now != NULL) && (kept->kind == now->kind) && has_same_levers(kept, now) &&
+           ((now->kind == JCAL_KEPT_BALL) || has_same_axes(kept, now));
+}
+
 jcal_status_t jcal_remember_settle(jcal_remember_t *self, const jcal_kept_t *now)
 {
     if ((self == NULL) || (now == NULL) || !jcal_kept_is_valid(now)) {
@@ -282,9 +288,7 @@ jcal_status_t jcal_remember_settle(jcal_remember_t *self, const jcal_kept_t *now
     if (self->state != (uint8_t)JCAL_REMEMBERED) {
         return JCAL_OK;
     }
-    const bool is_same = (self->kept.kind == now->kind) && has_same_levers(&self->kept, now) &&
-                         ((now->kind == JCAL_KEPT_BALL) || has_same_axes(&self->kept, now));
-    if (is_same) {
+    if (jcal_remember_agrees(&self->kept, now)) {
         self->off1_rad = 0.0f; /* the kept bounds hold */
         self->off2_rad = 0.0f;
         self->sigma1_rad = 0.0f;

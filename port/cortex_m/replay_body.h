@@ -18,7 +18,7 @@ typedef struct {
     jcal_body_joint_t joints[BODY_JOINTS];
     jcal_functional_t hinges[BODY_JOINTS];
     unsigned char storage[BODY_SENSORS][JCAL_PACKETS_STORAGE_BYTES(BODY_SLOTS, BODY_PER_PACKET, JCAL_PACKET_RAW)];
-    jcal_lag_t lag;
+    jcal_body_shared_t shared;
     jcal_health_t health;
 } whole_body_t;
 
@@ -40,7 +40,8 @@ static jcal_status_t engine_init(void)
     body_packets.values = JCAL_PACKET_RAW;
     jcal_status_t status = jcal_chip_scale("LSM6DSV", 2000.0f, 16.0f, &body_packets.scale);
     for (unsigned s = 0; s < BODY_SENSORS; ++s) {
-        const jcal_body_sensor_spec_t spec = {NULL, &body_packets, replayed.storage[s], sizeof(replayed.storage[s])};
+        const jcal_body_sensor_spec_t spec = {NULL, &body_packets, replayed.storage[s], sizeof(replayed.storage[s]),
+                                              0u};
         body_sensors[s] = spec;
     }
     for (unsigned j = 0; (j < BODY_JOINTS) && (status == JCAL_OK); ++j) {
@@ -50,12 +51,12 @@ static jcal_status_t engine_init(void)
         status = jcal_functional_init(&replayed.hinges[j], &settings);
     }
 #ifdef REPLAY_IN_STEP
-    jcal_lag_t *const lag = NULL;
+    jcal_body_shared_t *const shared = NULL;
 #else
-    jcal_lag_t *const lag = &replayed.lag;
+    jcal_body_shared_t *const shared = &replayed.shared;
 #endif
-    const jcal_body_table_t table = {body_sensors,    replayed.sensors, BODY_SENSORS, body_joints,
-                                     replayed.joints, BODY_JOINTS,      lag,          &replayed.health};
+    const jcal_body_table_t table = {body_sensors, replayed.sensors, BODY_SENSORS,     body_joints, replayed.joints,
+                                     BODY_JOINTS,  shared,           &replayed.health, NULL};
     return (status == JCAL_OK) ? jcal_body_init(&replayed.body, &table, &config) : status;
 }
 

@@ -190,6 +190,11 @@ void frame_write_u8(frame_writer_t *self, uint8_t value)
     write_number(self, value, 1);
 }
 
+void frame_write_u16(frame_writer_t *self, uint16_t value)
+{
+    write_number(self, value, 2);
+}
+
 void frame_write_u32(frame_writer_t *self, uint32_t value)
 {
     write_number(self, value, 4);
@@ -205,6 +210,21 @@ void frame_write_f32(frame_writer_t *self, float value)
     uint32_t bits;
     memcpy(&bits, &value, sizeof bits);
     write_number(self, bits, 4);
+}
+
+void frame_write_bytes(frame_writer_t *self, const uint8_t *bytes, size_t size)
+{
+    for (size_t k = 0; k < size; k++) {
+        write_number(self, bytes[k], 1);
+    }
+}
+
+void frame_write_text(frame_writer_t *self, const char *text, size_t size)
+{
+    const size_t length = strlen(text);
+    for (size_t k = 0; k < size; k++) {
+        write_number(self, (k < length) ? (uint8_t)text[k] : 0u, 1);
+    }
 }
 
 frame_reader_t frame_read_begin(const frame_t *frame)
@@ -231,6 +251,11 @@ uint8_t frame_read_u8(frame_reader_t *self)
     return (uint8_t)read_number(self, 1);
 }
 
+uint16_t frame_read_u16(frame_reader_t *self)
+{
+    return (uint16_t)read_number(self, 2);
+}
+
 uint32_t frame_read_u32(frame_reader_t *self)
 {
     return (uint32_t)read_number(self, 4);
@@ -247,6 +272,27 @@ float frame_read_f32(frame_reader_t *self)
     float value;
     memcpy(&value, &bits, sizeof value);
     return value;
+}
+
+void frame_read_bytes(frame_reader_t *self, uint8_t *bytes, size_t size)
+{
+    for (size_t k = 0; k < size; k++) {
+        bytes[k] = (uint8_t)read_number(self, 1);
+    }
+}
+
+void frame_read_text(frame_reader_t *self, char *text, size_t size)
+{
+    for (size_t k = 0; k < size; k++) {
+        const uint8_t byte = (uint8_t)read_number(self, 1);
+        text[k] = (byte == 0 || (byte >= 0x20u && byte < 0x7Fu)) ? (char)byte : '?';
+    }
+    text[size] = 0;
+}
+
+size_t frame_read_left(const frame_reader_t *self)
+{
+    return self->size - self->at;
 }
 
 bool frame_read_all(const frame_reader_t *self)

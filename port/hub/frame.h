@@ -12,25 +12,46 @@
 #include <stdint.h>
 
 /// First byte of every frame. Another number means another protocol.
-#define FRAME_VERSION 2u
+#define FRAME_VERSION 3u
 
 /// Version, type, sequence number before the payload; CRC behind it.
 #define FRAME_HEAD_BYTES 6u
 #define FRAME_CRC_BYTES 4u
-#define FRAME_PAYLOAD_MAX 144u
+#define FRAME_PAYLOAD_MAX 206u
 #define FRAME_MAX (FRAME_HEAD_BYTES + FRAME_PAYLOAD_MAX + FRAME_CRC_BYTES)
 
 /// On the wire: one byte of COBS, as frames are shorter than 254 bytes, and the zero that ends the frame.
 #define FRAME_WIRE_MAX (FRAME_MAX + 2u)
 
 typedef enum {
-    FRAME_START = 0x01,     ///< To the hub: begin anew with this configuration.
-    FRAME_SAMPLE = 0x02,    ///< To the hub: a pair of readings.
-    FRAME_REQUEST = 0x03,   ///< To the hub: answer with an estimate and counters.
-    FRAME_HELLO = 0x81,     ///< From the hub: answer to start.
-    FRAME_ESTIMATE = 0x82,  ///< From the hub: the result.
-    FRAME_COUNTERS = 0x83,  ///< From the hub: what became of the frames and samples.
-    FRAME_CREDIT = 0x84     ///< From the hub: how far the sender may go.
+    /* To the hub. */
+    FRAME_START = 0x01,     ///< Begins a pair session with this configuration.
+    FRAME_SAMPLE = 0x02,    ///< A pair of readings.
+    FRAME_REQUEST = 0x03,   ///< Answer with all states and counters.
+    FRAME_BEGIN = 0x04,     ///< Begins a body session.
+    FRAME_SENSOR = 0x05,    ///< A sensor of its table.
+    FRAME_JOINT = 0x06,     ///< A joint of its table.
+    FRAME_PACKET = 0x07,    ///< Readings of one sensor.
+    FRAME_TIME = 0x08,      ///< Nothing came until then.
+    FRAME_PUT_KEPT = 0x09,  ///< A record into flash.
+    FRAME_GET_KEPT = 0x0a,  ///< A record out of flash.
+    FRAME_FORGET = 0x0b,    ///< A record, or all, out of the way.
+    FRAME_SLEEP = 0x0c,     ///< A joint's estimator only watches, or works.
+    /* From the hub. */
+    FRAME_HELLO = 0x81,         ///< Answer to start and begin.
+    FRAME_ESTIMATE = 0x82,      ///< Pair session: the result.
+    FRAME_COUNTERS = 0x83,      ///< What became of the frames and samples.
+    FRAME_CREDIT = 0x84,        ///< How far the sender may go.
+    FRAME_TABLE = 0x85,         ///< The table is complete, and right or refused.
+    FRAME_EVENT = 0x86,         ///< Something happened.
+    FRAME_JOINT_STATE = 0x87,   ///< What is known of a joint.
+    FRAME_SENSOR_STATE = 0x88,  ///< What became of a sensor.
+    FRAME_BODY_STATE = 0x89,    ///< What became of the body.
+    FRAME_FLEXIONS = 0x8a,      ///< Angles of hinges.
+    FRAME_ORIENTATIONS = 0x8b,  ///< Orientations of sensor 2 in sensor 1 of the other joints.
+    FRAME_ADVICE = 0x8c,        ///< What to do next.
+    FRAME_KEPT = 0x8d,          ///< Answer to put, get and forget.
+    FRAME_OTHER_VERSION = 0x8e  ///< The other side speaks another version.
 } frame_type_t;
 
 /// A frame that passed its check; the payload points into the decoder and lives until its next byte.
@@ -106,9 +127,13 @@ typedef struct {
 
 void frame_write_begin(frame_writer_t *self);
 void frame_write_u8(frame_writer_t *self, uint8_t value);
+void frame_write_u16(frame_writer_t *self, uint16_t value);
 void frame_write_u32(frame_writer_t *self, uint32_t value);
 void frame_write_u64(frame_writer_t *self, uint64_t value);
 void frame_write_f32(frame_writer_t *self, float value);
+void frame_write_bytes(frame_writer_t *self, const uint8_t *bytes, size_t size);
+/// `size` bytes: the text, cut if it is longer, and zeros.
+void frame_write_text(frame_writer_t *self, const char *text, size_t size);
 
 /// Reads them again. Beyond the end it gives zeros and `ok` becomes false.
 typedef struct {
@@ -120,9 +145,15 @@ typedef struct {
 
 frame_reader_t frame_read_begin(const frame_t *frame);
 uint8_t frame_read_u8(frame_reader_t *self);
+uint16_t frame_read_u16(frame_reader_t *self);
 uint32_t frame_read_u32(frame_reader_t *self);
 uint64_t frame_read_u64(frame_reader_t *self);
 float frame_read_f32(frame_reader_t *self);
+void frame_read_bytes(frame_reader_t *self, uint8_t *bytes, size_t size);
+/// `size` bytes into a text of size + 1, with a zero behind; what is no printable ASCII becomes '?'.
+void frame_read_text(frame_reader_t *self, char *text, size_t size);
+/// Bytes that are left.
+size_t frame_read_left(const frame_reader_t *self);
 
 /// True if everything was there and nothing is left.
 bool frame_read_all(const frame_reader_t *self);

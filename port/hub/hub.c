@@ -4,7 +4,6 @@
 
 #include "jointcal/jointcal.h"
 
-#include <math.h>
 #include <string.h>
 
 /* One piece of work answers with at most an estimate, counters, and a credit; a start with less. */
@@ -13,84 +12,122 @@
 /* Credit is renewed in steps of so many frames, so that answers are few beside samples. */
 #define CREDIT_STEP 8u
 
+/* So long nothing must have come before a processor that flash makes deaf writes it. */
+#define QUIET_US 20000u
+
+/* A body whose hub has a clock works at least so often, whether packets come or not. */
+#define PASS_US 10000u
+
 void hub_init(hub_t *self)
 {
     memset(self, 0, sizeof *self);
 }
 
-/* Receiving side. */
+void hub_set_flash(hub_t *self, const jcal_flash_t *flash, bool is_deaf)
+{
+    self->flash = *flash;
+    self->has_flash = true;
+    self->flash_is_deaf = is_deaf;
+}
+
+void hub_time(hub_t *self, uint64_t now_us)
+{
+    self->now_us = now_us;
+}
+
+/* ---- Receiving side ---- */
 
 static bool queue_full(const hub_t *self)
 {
     return self->queued - self->taken >= HUB_QUEUE;
 }
 
-static void enqueue(hub_t *self, const hub_item_t *item)
+static void enqueue(hub_t *self, const frame_t *frame)
 {
     if (queue_full(self)) {
         self->overrun++;
         return;
     }
-    const uint32_t at = self->queued;
-    volatile hub_item_t *const slot = &self->queue[at % HUB_QUEUE];
-    *slot = *item;
-    self->queued = at + 1u;
+    hub_item_t *const slot = &self->queue[self->queued % HUB_QUEUE];
+    slot->type = frame->type;
+    slot->size = (uint8_t)frame->size;
+    slot->sequence = frame->sequence;
+    slot->now_us = self->now_us;
+    memcpy(slot->payload, frame->payload, frame->size);
+    __atomic_signal_fence(__ATOMIC_RELEASE); /* all of the item before it counts */
+    self->queued = self->queued + 1u;
 }
 
-/* A sample without a time becomes one without a rate, which the library counts as not finite. */
-static void push(hub_t *self, const jcal_pair_t *pair)
+/* The nonce is the first field of both. */
+static bool read_nonce(const frame_t *frame, uint32_t *nonce)
 {
-    jcal_pair_t known = *pair;
-    if (pair->t_us == MESSAGE_TIME_UNKNOWN) {
-        known.t_us = self->pair_us;
-        known.imu1.gyr_rad_s.x = NAN;
+    message_start_t start;
+    message_begin_t begin;
+    if (frame->type == FRAME_START && message_read_start(frame, &start)) {
+        *nonce = start.nonce;
+        return true;
     }
-    self->pair_us = known.t_us;
-    self->accepted = jcal_hinge_auto_push(&self->hinge, &known) == JCAL_OK;
-}
-
-static void receive_sample(hub_t *self, const hub_item_t *item)
-{
-    const bool idle = self->running && !self->busy && !self->direct_pending && self->queued == self->taken;
-    if (!idle) {
-        enqueue(self, item);
-        return;
+    if (frame->type == FRAME_BEGIN && message_read_begin(frame, &begin)) {
+        *nonce = begin.nonce;
+        return true;
     }
-    push(self, &item->as.pair);
-    volatile hub_item_t *const direct = &self->direct;
-    *direct = *item;
-    self->direct_pending = true;
+    return false;
 }
 
 /* A start with a new nonce begins a new link, whatever its number; the same once more is a repeated frame. */
 static void receive_start(hub_t *self, const frame_t *frame)
 {
-    hub_item_t item = {.type = FRAME_START, .sequence = frame->sequence};
-    if (!message_read_start(frame, &item.as.start) || queue_full(self)) {
+    uint32_t nonce = 0;
+    if (!read_nonce(frame, &nonce) || queue_full(self)) {
         return; /* the sender hears nothing and tries again */
     }
-    if (self->linked && item.as.start.nonce == self->nonce) {
+    if (self->linked && nonce == self->nonce) {
         (void)frame_link_count(&self->link, frame->sequence);
         return;
     }
     self->linked = true;
-    self->nonce = item.as.start.nonce;
+    self->told = false;
+    self->nonce = nonce;
     self->unknown = 0;
     self->overrun = 0;
     frame_link_start(&self->link, frame->sequence);
-    enqueue(self, &item);
+    enqueue(self, frame);
 }
 
-static void receive_taken(hub_t *self, const frame_t *frame)
+/* Types that a hub knows, and sizes that they may have: what is inside is read when it is worked off. */
+static bool is_known(const frame_t *frame)
 {
-    hub_item_t item = {.type = frame->type, .sequence = frame->sequence};
-    if (frame->version == FRAME_VERSION && frame->type == FRAME_SAMPLE && message_read_sample(frame, &item.as.pair)) {
-        receive_sample(self, &item);
-    } else if (frame->version == FRAME_VERSION && frame->type == FRAME_REQUEST &&
-               message_read_number(frame, &item.as.token)) {
-        enqueue(self, &item);
-    } else {
-        self->unknown++;
+    switch (frame->type) {
+    case FRAME_SAMPLE:
+        return frame->size == 56u;
+    case FRAME_REQUEST:
+        return frame->size == 4u;
+    case FRAME_SENSOR:
+        return frame->size == 47u;
+    case FRAME_JOINT:
+        return frame->size == 24u;
+    case FRAME_PACKET:
+        return frame->size >= 25u && (frame->size - 13u) % 12u == 0;
+    case FRAME_TIME:
+        return frame->size == 8u;
+    case FRAME_PUT_KEPT:
+        return frame->size == 4u + JCAL_KEPT_BYTES;
+    case FRAME_GET_KEPT:
+    case FRAME_FORGET:
+        return frame->size == 5u;
+    case FRAME_SLEEP:
+        return frame->size == 2u;
+    default:
+        return false;
+    }
+}
+
+/* Another version: told once on a stream, and at every start. */
+static void receive_other(hub_t *self, const frame_t *frame)
+{
+    if (!self->told || frame->type == FRAME_START) {
+        self->told = true;
+        self->refused_version = (frame->version != 0) ? frame->version : UINT8_MAX;
     }
 }
 
@@ -98,204 +135,223 @@ void hub_receive(hub_t *self, uint8_t byte)
 {
     frame_t frame;
     const frame_event_t event = frame_decode(&self->decoder, byte, &frame);
+    self->heard_us = self->now_us;
     if (event == FRAME_BAD) {
         self->link.counts.corrupted++;
     }
     if (event != FRAME_GOOD) {
         return;
     }
-    if (frame.version == FRAME_VERSION && frame.type == FRAME_START) {
+    const bool is_ours = frame.version == FRAME_VERSION;
+    if (!is_ours) {
+        receive_other(self, &frame);
+    }
+    if (is_ours && (frame.type == FRAME_START || frame.type == FRAME_BEGIN)) {
         receive_start(self, &frame);
     } else if (self->linked && frame_link_count(&self->link, frame.sequence) == FRAME_TAKEN) {
-        receive_taken(self, &frame);
+        if (is_ours && is_known(&frame)) {
+            enqueue(self, &frame);
+        } else {
+            self->unknown++;
+        }
     }
 }
 
-/* Main loop. */
-
-static uint32_t out_room(const hub_t *self)
-{
-    return HUB_OUT_BYTES - hub_send_count(self);
-}
-
-static void answer(hub_t *self, frame_type_t type, const frame_writer_t *payload)
-{
-    uint8_t wire[FRAME_WIRE_MAX];
-    const size_t size = frame_encode(wire, type, self->sequence, payload->bytes, payload->size);
-    self->sequence++;
-    for (size_t k = 0; k < size; k++) {
-        self->out[self->out_written % HUB_OUT_BYTES] = wire[k];
-        self->out_written++;
-    }
-}
-
-static void answer_estimate(hub_t *self, uint8_t events, uint32_t token)
-{
-    message_estimate_t estimate = {
-        .events = events, .token = token, .now_us = self->has_time ? self->latest_us : MESSAGE_TIME_UNKNOWN};
-    frame_writer_t payload;
-    (void)jcal_hinge_auto_get(&self->hinge, &estimate.result);
-    message_write_estimate(&payload, &estimate);
-    answer(self, FRAME_ESTIMATE, &payload);
-}
+/* ---- Main loop ---- */
 
 /* Whoever wants numbers that belong together asks when nothing else is on its way. */
 static void answer_counters(hub_t *self, uint32_t token)
 {
-    jcal_hinge_auto_result_t all;
-    (void)jcal_hinge_auto_get(&self->hinge, &all);
-    const jcal_head_t *head = &all.hinge.head;
-    message_counters_t counters = {.token = token,
-                                   .link = self->link.counts,
-                                   .unknown = self->unknown,
-                                   .overrun = self->overrun,
-                                   .samples = head->samples};
-    memcpy(counters.rejected_by, head->rejected_by, sizeof counters.rejected_by);
+    message_counters_t counters;
     frame_writer_t payload;
+    memset(&counters, 0, sizeof counters);
+    counters.token = token;
+    counters.link = self->link.counts;
+    counters.unknown = self->unknown;
+    counters.overrun = self->overrun;
+    if (self->session == HUB_PAIR) {
+        hub_pair_count(&self->of.pair, &counters);
+    } else {
+        counters.samples = self->of.body.pushed;
+    }
     message_write_counters(&payload, &counters);
-    answer(self, FRAME_COUNTERS, &payload);
+    hub_out_put(&self->out, FRAME_COUNTERS, &payload);
 }
 
 /* Frames up to this one are dealt with. */
-static void give_credit(hub_t *self, uint32_t sequence)
+static void give_credit(hub_t *self)
 {
-    const uint32_t limit = sequence + 1u + HUB_CREDIT;
+    const uint32_t limit = self->item_sequence + 1u + HUB_CREDIT;
     if (limit - self->limit < CREDIT_STEP) {
         return;
     }
     self->limit = limit;
     frame_writer_t payload;
     message_write_number(&payload, limit);
-    answer(self, FRAME_CREDIT, &payload);
+    hub_out_put(&self->out, FRAME_CREDIT, &payload);
 }
 
-static void begin(hub_t *self, const hub_item_t *item)
+static void begin(hub_t *self, const frame_t *frame)
 {
-    jcal_hinge_auto_config_t config = jcal_hinge_auto_config_default();
-    self->config = item->as.start;
-    config.hinge.max_bound_rad = self->config.max_bound_rad;
-    config.hinge.sign_hint = (jcal_sign_hint_t)self->config.sign_hint;
-    self->running = jcal_hinge_auto_init(&self->hinge, &config) == JCAL_OK;
-    self->has_time = false;
-    self->pair_us = 0;
-    self->status = JCAL_COLLECTING;
-    self->sequence = 0;
-    self->limit = item->sequence + 1u + HUB_CREDIT;
-    const message_hello_t hello = {.nonce = self->config.nonce,
-                                   .refused = !self->running,
-                                   .credit = HUB_CREDIT,
-                                   .version = {JCAL_VERSION_MAJOR, JCAL_VERSION_MINOR, JCAL_VERSION_PATCH}};
+    message_start_t start;
+    message_begin_t body;
+    message_hello_t hello = {.credit = HUB_CREDIT,
+                             .version = {JCAL_VERSION_MAJOR, JCAL_VERSION_MINOR, JCAL_VERSION_PATCH}};
+    bool accepted = false;
+    if (frame->type == FRAME_START) {
+        (void)message_read_start(frame, &start);
+        hello.nonce = start.nonce;
+        accepted = hub_pair_begin(&self->of.pair, &start);
+        self->session = accepted ? HUB_PAIR : HUB_NO_SESSION;
+    } else {
+        (void)message_read_begin(frame, &body);
+        hello.nonce = body.nonce;
+        accepted = hub_body_begin(&self->of.body, &body, self->has_flash ? &self->flash : NULL);
+        self->session = accepted ? HUB_BODY : HUB_NO_SESSION;
+    }
+    hello.refused = !accepted;
+    self->out.sequence = 0;
+    self->limit = frame->sequence + 1u + HUB_CREDIT;
     frame_writer_t payload;
     message_write_hello(&payload, &hello);
-    answer(self, FRAME_HELLO, &payload);
+    hub_out_put(&self->out, FRAME_HELLO, &payload);
 }
 
-/* True once per period of sample time. */
-static bool estimate_due(hub_t *self, uint64_t t_us)
+static void take_pair(hub_t *self, const frame_t *frame)
 {
-    const uint64_t every_us = self->config.every_us;
-    if (t_us != MESSAGE_TIME_UNKNOWN) {
-        if (!self->has_time) {
-            self->has_time = true;
-            self->latest_us = t_us;
-            self->next_us = t_us + every_us;
+    jcal_pair_t pair;
+    uint32_t token = 0;
+    if (frame->type == FRAME_SAMPLE && message_read_sample(frame, &pair)) {
+        if (hub_pair_sample(&self->of.pair, &self->out, &pair)) {
+            answer_counters(self, 0);
         }
-        self->latest_us = (t_us > self->latest_us) ? t_us : self->latest_us;
-    }
-    if (every_us == 0 || !self->has_time || self->latest_us < self->next_us) {
-        return false;
-    }
-    self->next_us += every_us * (1u + (self->latest_us - self->next_us) / every_us);
-    return true;
-}
-
-/* The pushed sample is worked off; reports what it changed. */
-static void step(hub_t *self, uint64_t t_us)
-{
-    jcal_hinge_auto_result_t result;
-    if (self->accepted) {
-        (void)jcal_hinge_auto_step(&self->hinge);
-    }
-    (void)jcal_hinge_auto_get(&self->hinge, &result);
-    const jcal_calibration_t status = result.hinge.head.status;
-    uint8_t events = 0;
-    if (status != self->status && status == JCAL_READY) {
-        events |= MESSAGE_EVENT_READY;
-    }
-    if (status != self->status && status == JCAL_MOVED) {
-        events |= MESSAGE_EVENT_MOVED;
-    }
-    self->status = status;
-    const bool due = estimate_due(self, t_us);
-    if (due) {
-        events |= MESSAGE_EVENT_DUE;
-    }
-    if (events != 0) {
-        answer_estimate(self, events, 0);
-    }
-    if (due) {
-        answer_counters(self, 0);
-    }
-}
-
-static void work_off(hub_t *self, const hub_item_t *item)
-{
-    if (item->type == FRAME_START) {
-        begin(self, item);
-        return;
-    }
-    if (!self->running) {
-        return;
-    }
-    if (item->type == FRAME_SAMPLE) {
-        push(self, &item->as.pair);
-        step(self, item->as.pair.t_us);
+    } else if (frame->type == FRAME_REQUEST && message_read_number(frame, &token)) {
+        hub_pair_estimate(&self->of.pair, &self->out, MESSAGE_EVENT_REQUESTED, token);
+        answer_counters(self, token);
     } else {
-        answer_estimate(self, MESSAGE_EVENT_REQUESTED, item->as.token);
-        answer_counters(self, item->as.token);
+        self->unknown++; /* of the other kind of session */
     }
-    give_credit(self, item->sequence);
+    give_credit(self);
+}
+
+static void take_body(hub_t *self, const frame_t *frame, uint64_t now_us)
+{
+    if (!hub_body_take(&self->of.body, frame, now_us)) {
+        self->unknown++;
+    }
+    if (self->of.body.phase == HUB_BODY_IDLE && !self->of.body.is_held) {
+        give_credit(self);
+    }
+}
+
+/* The next frame of the queue. */
+static void work_off(hub_t *self)
+{
+    const hub_item_t *const slot = &self->queue[self->taken % HUB_QUEUE];
+    const hub_item_t item = *slot;
+    __atomic_signal_fence(__ATOMIC_RELEASE); /* the copy is whole before its place is free */
+    self->taken = self->taken + 1u;
+    const frame_t frame = {.version = FRAME_VERSION,
+                           .type = item.type,
+                           .sequence = item.sequence,
+                           .payload = item.payload,
+                           .size = item.size};
+    self->item_sequence = item.sequence;
+    if (item.type == FRAME_START || item.type == FRAME_BEGIN) {
+        begin(self, &frame);
+    } else if (self->session == HUB_PAIR) {
+        take_pair(self, &frame);
+    } else if (self->session == HUB_BODY) {
+        take_body(self, &frame, item.now_us);
+    } else {
+        /* refused: only another start helps */
+    }
+}
+
+static bool is_busy(const hub_t *self)
+{
+    return self->session == HUB_BODY && self->of.body.phase != HUB_BODY_IDLE;
+}
+
+/* A hub whose clock goes on works without packets, too: sensors that fall silent are missed. */
+static bool is_passing(const hub_t *self)
+{
+    const hub_body_t *const body = &self->of.body;
+    return self->session == HUB_BODY && body->running && body->is_live && self->now_us > body->now_us + PASS_US;
+}
+
+/* What is granted and has not come would be lost while the processor is deaf. */
+static bool may_keep(const hub_t *self)
+{
+    return !self->flash_is_deaf || self->link.next == self->limit || self->now_us > self->heard_us + QUIET_US;
+}
+
+/* Flash waits for silence, and it is silent. */
+static bool may_keep_now(const hub_t *self)
+{
+    return self->session == HUB_BODY && self->of.body.is_held && may_keep(self);
+}
+
+static void work_body(hub_t *self)
+{
+    hub_body_t *const body = &self->of.body;
+    if (hub_body_counts(body)) {
+        answer_counters(self, body->token);
+        hub_body_counted(body);
+    } else if (hub_body_keeps(body)) {
+        hub_body_keep(body, may_keep(self));
+    } else {
+        (void)hub_body_work(body, &self->out);
+    }
+    if (body->phase == HUB_BODY_IDLE && !body->is_held) {
+        give_credit(self);
+    }
+}
+
+static void refuse_version(hub_t *self)
+{
+    frame_writer_t payload;
+    message_write_other_version(&payload, self->refused_version);
+    self->refused_version = 0;
+    hub_out_put(&self->out, FRAME_OTHER_VERSION, &payload);
 }
 
 bool hub_waiting(const hub_t *self)
 {
-    return self->direct_pending || self->queued != self->taken;
+    return self->refused_version != 0 || is_busy(self) || self->queued != self->taken || is_passing(self) ||
+           may_keep_now(self);
 }
 
 bool hub_work(hub_t *self)
 {
-    if (!hub_waiting(self) || out_room(self) < OUT_ROOM) {
+    if (!hub_waiting(self) || hub_out_room(&self->out) < OUT_ROOM) {
         return false;
     }
-    /* From here to the end samples go into the queue. Whatever was pushed on reception came before all that is queued. */
-    self->busy = true;
-    if (self->direct_pending) {
-        const volatile hub_item_t *const direct = &self->direct;
-        const hub_item_t item = *direct;
-        step(self, item.as.pair.t_us);
-        give_credit(self, item.sequence);
-        self->direct_pending = false;
+    if (self->refused_version != 0) {
+        refuse_version(self);
+    } else if (is_busy(self)) {
+        work_body(self);
     } else if (self->queued != self->taken) {
-        const volatile hub_item_t *const slot = &self->queue[self->taken % HUB_QUEUE];
-        const hub_item_t item = *slot;
-        self->taken = self->taken + 1u;
-        work_off(self, &item);
+        work_off(self);
+    } else if (is_passing(self)) {
+        hub_body_pass(&self->of.body, self->now_us);
+    } else {
+        self->of.body.phase = HUB_BODY_KEEP;
     }
-    self->busy = false;
     return true;
 }
 
 bool hub_send(hub_t *self, uint8_t *byte)
 {
-    if (self->out_taken == self->out_written) {
+    if (self->out.taken == self->out.written) {
         return false;
     }
-    *byte = self->out[self->out_taken % HUB_OUT_BYTES];
-    self->out_taken++;
+    *byte = self->out.bytes[self->out.taken % HUB_OUT_BYTES];
+    self->out.taken++;
     return true;
 }
 
 uint32_t hub_send_count(const hub_t *self)
 {
-    return self->out_written - self->out_taken;
+    return self->out.written - self->out.taken;
 }

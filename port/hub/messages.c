@@ -2,6 +2,8 @@
 /* Payloads of the frames. Each write function and its read function name the same fields in the same order. */
 #include "messages.h"
 
+#include "vectors.h"
+
 #include <string.h>
 
 void message_write_start(frame_writer_t *out, const message_start_t *in)
@@ -23,40 +25,24 @@ bool message_read_start(const frame_t *frame, message_start_t *out)
     return frame_read_all(&in);
 }
 
-static void write_vector(frame_writer_t *out, jcal_vec3_t vector)
-{
-    frame_write_f32(out, vector.x);
-    frame_write_f32(out, vector.y);
-    frame_write_f32(out, vector.z);
-}
-
-static jcal_vec3_t read_vector(frame_reader_t *in)
-{
-    jcal_vec3_t vector;
-    vector.x = frame_read_f32(in);
-    vector.y = frame_read_f32(in);
-    vector.z = frame_read_f32(in);
-    return vector;
-}
-
 void message_write_sample(frame_writer_t *out, const jcal_pair_t *in)
 {
     frame_write_begin(out);
     frame_write_u64(out, in->t_us);
-    write_vector(out, in->imu1.gyr_rad_s);
-    write_vector(out, in->imu1.acc_m_s2);
-    write_vector(out, in->imu2.gyr_rad_s);
-    write_vector(out, in->imu2.acc_m_s2);
+    message_write_vector(out, in->imu1.gyr_rad_s);
+    message_write_vector(out, in->imu1.acc_m_s2);
+    message_write_vector(out, in->imu2.gyr_rad_s);
+    message_write_vector(out, in->imu2.acc_m_s2);
 }
 
 bool message_read_sample(const frame_t *frame, jcal_pair_t *out)
 {
     frame_reader_t in = frame_read_begin(frame);
     out->t_us = frame_read_u64(&in);
-    out->imu1.gyr_rad_s = read_vector(&in);
-    out->imu1.acc_m_s2 = read_vector(&in);
-    out->imu2.gyr_rad_s = read_vector(&in);
-    out->imu2.acc_m_s2 = read_vector(&in);
+    out->imu1.gyr_rad_s = message_read_vector(&in);
+    out->imu1.acc_m_s2 = message_read_vector(&in);
+    out->imu2.gyr_rad_s = message_read_vector(&in);
+    out->imu2.acc_m_s2 = message_read_vector(&in);
     return frame_read_all(&in);
 }
 
@@ -118,8 +104,8 @@ void message_write_estimate(frame_writer_t *out, const message_estimate_t *in)
                             (all->has_levers ? FLAG_HAS_LEVERS : 0u) | (all->heading.known ? FLAG_HEADING_KNOWN : 0u));
     frame_write_u8(out, (uint8_t)all->model);
     frame_write_u8(out, (uint8_t)all->ready_for);
-    write_vector(out, result->axis1);
-    write_vector(out, result->axis2);
+    message_write_vector(out, result->axis1);
+    message_write_vector(out, result->axis2);
     frame_write_f32(out, result->uncertainty1_rad);
     frame_write_f32(out, result->uncertainty2_rad);
     frame_write_f32(out, result->sign_margin);
@@ -128,8 +114,8 @@ void message_write_estimate(frame_writer_t *out, const message_estimate_t *in)
     frame_write_f32(out, result->progress_sign);
     frame_write_f32(out, all->flexion_uncertainty_rad);
     frame_write_f32(out, all->heading.heading_rad);
-    write_vector(out, all->joint_to_sensor1_m);
-    write_vector(out, all->joint_to_sensor2_m);
+    message_write_vector(out, all->joint_to_sensor1_m);
+    message_write_vector(out, all->joint_to_sensor2_m);
     frame_write_u64(out, result->head.t_us);
     frame_write_u32(out, result->head.samples);
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {
@@ -158,8 +144,8 @@ bool message_read_estimate(const frame_t *frame, message_estimate_t *out)
     all->heading.known = (flags & FLAG_HEADING_KNOWN) != 0;
     all->model = (jcal_model_t)frame_read_u8(&in);
     all->ready_for = (jcal_ready_for_t)frame_read_u8(&in);
-    result->axis1 = read_vector(&in);
-    result->axis2 = read_vector(&in);
+    result->axis1 = message_read_vector(&in);
+    result->axis2 = message_read_vector(&in);
     result->uncertainty1_rad = frame_read_f32(&in);
     result->uncertainty2_rad = frame_read_f32(&in);
     result->sign_margin = frame_read_f32(&in);
@@ -168,8 +154,8 @@ bool message_read_estimate(const frame_t *frame, message_estimate_t *out)
     result->progress_sign = frame_read_f32(&in);
     all->flexion_uncertainty_rad = frame_read_f32(&in);
     all->heading.heading_rad = frame_read_f32(&in);
-    all->joint_to_sensor1_m = read_vector(&in);
-    all->joint_to_sensor2_m = read_vector(&in);
+    all->joint_to_sensor1_m = message_read_vector(&in);
+    all->joint_to_sensor2_m = message_read_vector(&in);
     result->head.t_us = frame_read_u64(&in);
     result->head.samples = frame_read_u32(&in);
     for (int k = 0; k < JCAL_REJECT_COUNT; k++) {

@@ -16,7 +16,7 @@ typedef struct {
     jcal_body_sensor_t sensor_states[JCAL_BATCH_BODY_SENSORS];
     jcal_body_joint_t joint_states[JCAL_BATCH_BODY_JOINTS];
     jcal_functional_t hinges[JCAL_BATCH_BODY_JOINTS];
-    jcal_lag_t lag;
+    jcal_body_shared_t shared;
     jcal_health_t health;
     jcal_body_t body;
 } whole_t;
@@ -33,7 +33,7 @@ static bool begin(whole_t *w, const jcal_batch_body_in_t *in)
     w->packets.counter_bits = (uint8_t)in->counter_bits;
     w->packets.max_delay_s = 0.5f;
     for (unsigned s = 0; s < sensors; s++) {
-        const jcal_body_sensor_spec_t spec = {NULL, &w->packets, w->storage[s], sizeof(w->storage[s])};
+        const jcal_body_sensor_spec_t spec = {NULL, &w->packets, w->storage[s], sizeof(w->storage[s]), 0u};
         w->sensors[s] = spec;
     }
     for (unsigned j = 0; j < joints; j++) {
@@ -44,8 +44,8 @@ static bool begin(whole_t *w, const jcal_batch_body_in_t *in)
             return false;
         }
     }
-    const jcal_body_table_t table = {w->sensors,      w->sensor_states, sensors, w->joints,
-                                     w->joint_states, joints,           &w->lag, &w->health};
+    const jcal_body_table_t table = {w->sensors, w->sensor_states, sensors,    w->joints, w->joint_states,
+                                     joints,     &w->shared,       &w->health, NULL};
     return jcal_body_init(&w->body, &table, &config) == JCAL_OK;
 }
 

@@ -19,7 +19,7 @@ typedef struct {
     jcal_body_joint_spec_t joints[CHAIN_MAX];
     jcal_body_joint_t joint_states[CHAIN_MAX];
     jcal_functional_t hinges[CHAIN_MAX];
-    jcal_lag_t lag;
+    jcal_body_shared_t shared;
     jcal_health_t health;
     jcal_body_table_t table;
     jcal_body_config_t config;
@@ -36,7 +36,7 @@ static inline void body_fill(body_fixture_t *f, unsigned sensors)
     f->config = jcal_body_config_default();
     const jcal_functional_config_t settings = jcal_functional_config_default();
     for (unsigned s = 0u; s < sensors; ++s) {
-        const jcal_body_sensor_spec_t sensor = {NULL, &f->packets, f->storage[s], sizeof f->storage[s]};
+        const jcal_body_sensor_spec_t sensor = {NULL, &f->packets, f->storage[s], sizeof f->storage[s], 0u};
         f->sensors[s] = sensor;
     }
     for (unsigned j = 0u; j + 1u < sensors; ++j) {
@@ -46,7 +46,7 @@ static inline void body_fill(body_fixture_t *f, unsigned sensors)
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_functional_init(&f->hinges[j], &settings));
     }
     const jcal_body_table_t table = {f->sensors,      f->sensor_states, sensors, f->joints,
-                                     f->joint_states, sensors - 1u,     &f->lag, &f->health};
+                                     f->joint_states, sensors - 1u,     &f->shared, &f->health, NULL};
     f->table = table;
 }
 

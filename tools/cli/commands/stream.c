@@ -2,6 +2,7 @@
 /* `jointcal stream`: its options, rows to a hub, the hub's estimates out. */
 #include "commands/commands.h"
 #include "commands/hinge.h"
+#include "commands/stream_body.h"
 #include "options/common.h"
 #include "options/values.h"
 #include "output/report.h"
@@ -26,12 +27,6 @@
 
 enum { KEY_TO = OPTION_OWN, KEY_BAUD, KEY_SPEED, KEY_TIMEOUT, KEY_COUNTERS };
 
-typedef struct {
-    hub_target_t hub;
-    float speed;   /* times real time; 0: as fast as the hub can */
-    bool counters; /* tell the hub's counters at the end */
-} stream_options_t;
-
 static const struct argp_option OPTIONS[] = {
     {"to", KEY_TO, "HUB", 0, "Where the hub is: unix:PATH, tcp:HOST:PORT, or a serial device like /dev/ttyACM0", 0},
     {"baud", KEY_BAUD, "RATE", 0, "Rate of a serial device, 9600 to 230400 (default 115200)", 0},
@@ -40,6 +35,7 @@ static const struct argp_option OPTIONS[] = {
     {"timeout", KEY_TIMEOUT, "S", 0, "Give up when the hub has been silent for S seconds (default 5)", 0},
     {"counters", KEY_COUNTERS, NULL, 0,
      "At the end, tell on standard error what became of the frames, even if none was lost or damaged", 0},
+    STREAM_BODY_OPTIONS,
     {NULL, 0, NULL, 0, NULL, 0}};
 
 static error_t parse(int key, char *argument, struct argp_state *state, void *self)
@@ -65,8 +61,18 @@ static error_t parse(int key, char *argument, struct argp_state *state, void *se
         options->counters = true;
         return 0;
     default:
-        return ARGP_ERR_UNKNOWN;
+        return stream_body_parse(key, argument, state, &options->body);
     }
+}
+
+static void take_file(struct argp_state *state, const char *name, void *self)
+{
+    stream_options_t *options = self;
+    if (options->body.file_count == BODY_FILES_MAX) {
+        argp_error(state, "%d files at the most, one of each sensor", BODY_FILES_MAX);
+    }
+    options->body.files[options->body.file_count] = name;
+    options->body.file_count++;
 }
 
 static void settle(struct argp_state *state, common_options_t *common, void *self)
@@ -74,6 +80,10 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
     const stream_options_t *options = self;
     if (options->hub.target == NULL) {
         argp_error(state, "where is the hub? Give --to unix:PATH, --to tcp:HOST:PORT or --to /dev/NAME");
+    }
+    stream_body_settle(state, common, &options->body);
+    if (options->body.joint_count > 0) {
+        return; /* every kind of joint has a bound of its own: the library's, unless one is given */
     }
     jcal_hinge_config_t config = jcal_hinge_config_default();
     config.max_bound_rad = (common->max_bound > 0.0f) ? common->max_bound : config.max_bound_rad;
@@ -84,13 +94,18 @@ static void settle(struct argp_state *state, common_options_t *common, void *sel
 }
 
 static const command_line_t LINE = {
-    .args_doc = "RECORDING.csv --to HUB",
-    .doc = "Plays a recording to a hub and writes the hub's estimates as JSON Lines.\v"
-           "The recording and the lines are those of 'jointcal hinge --json'; as long as no frame is lost, so is every "
-           "byte of the output.\n"
-           "\n"
-           "Exit status: 0 ready at the end; 3 read to the end but not ready; 2 the command line or the recording is "
-           "wrong; 1 anything else, such as a hub that does not answer.",
+    .args_doc = "RECORDING.csv --to HUB\nFILE.csv... --to HUB --joint NAME:KIND:PROXIMAL:DISTAL...",
+    .doc =
+        "Plays a recording to a hub and writes what the hub finds as JSON Lines.\v"
+        "Without --joint: one hinge. The recording and the lines are those of 'jointcal hinge --json'; as long as no frame is lost, so is "
+        "every byte of the output.\n"
+        "\n"
+        "With --joint: a whole body, as wireless sensors would send it. There is a file for each sensor, in the columns t_s, gyr_x, gyr_y, "
+        "gyr_z, acc_x, acc_y, acc_z, or one recording of two or three sensors. Each sensor sends packets, which the options below delay and lose; "
+        "the same files, options and seed make the same packets. docs/PROGRAM.md has the lines that come.\n"
+        "\n"
+        "Exit status: 0 ready at the end, all joints of a body; 3 read to the end but not ready; 2 the command line or the recording is "
+        "wrong; 1 anything else, such as a hub that does not answer.",
     .offers = {[COMMON_EVERY] = {.help = COMMON_EVERY_HELP},
                [COMMON_MAX_BOUND] =
                    {.help = "Ready when both axes are known to within DEG degrees with 95 % confidence (default 3)"},
@@ -100,6 +115,7 @@ static const command_line_t LINE = {
     .bound_unit = BOUND_IN_DEG,
     .own = OPTIONS,
     .parse = parse,
+    .take_file = take_file,
     .settle = settle,
 };
 
@@ -264,7 +280,13 @@ int stream_command(int argc, char **argv)
         return EXIT_TROUBLE;
     }
     session->options = (stream_options_t){.hub = {.baud = 115200, .timeout_us = 5000000}, .speed = 1.0f};
+    stream_body_defaults(&session->options.body);
     common_parse(&LINE, argc, argv, &session->common, &session->options);
+    if (session->options.body.joint_count > 0) {
+        const exit_status_t body = stream_body(&session->common, &session->options);
+        free(session);
+        return (int)body;
+    }
     exit_status_t status = reading_open(&session->reading, session->common.recording, session->common.sort);
     status = (status == EXIT_READY) ? run_recording(session) : status;
     reading_close(&session->reading);

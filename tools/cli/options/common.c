@@ -93,6 +93,11 @@ static void take(struct argp_state *state, const parse_t *parse, common_option_t
 static void take_name(struct argp_state *state, const parse_t *parse, const char *argument)
 {
     common_options_t *common = parse->common;
+    if (parse->line->take_file != NULL) {
+        parse->line->take_file(state, argument, parse->own);
+        common->recording = (common->recording == NULL) ? argument : common->recording;
+        return;
+    }
     if (common->recording == NULL) {
         common->recording = argument;
     } else if (!parse->line->two_files) {

@@ -102,6 +102,8 @@ typedef struct {
     const struct argp_option *own;  ///< Its own options, ended as argp has it; null if there are none.
     /// Takes one of its own options; 0, or ARGP_ERR_UNKNOWN. A wrong value ends the program.
     error_t (*parse)(int key, char *argument, struct argp_state *state, void *options);
+    /// Takes the name of a file, the first one too; null: `recording` and `second` are all there are.
+    void (*take_file)(struct argp_state *state, const char *name, void *options);
     /// All options are read: judges what goes together, fills in what was not given.
     void (*settle)(struct argp_state *state, common_options_t *common, void *options);
 } command_line_t;

@@ -182,6 +182,7 @@ void hub_link_listen(hub_link_t *link, hub_frame_t *on_frame, void *context)
 static void take_frame(hub_link_t *link, const frame_t *frame)
 {
     if (frame->version != FRAME_VERSION) {
+        link->speaks = frame->version;
         return;
     }
     if (frame->type == FRAME_HELLO) {

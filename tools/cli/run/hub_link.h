@@ -15,6 +15,7 @@ typedef struct {
     frame_link_t from_hub;
     uint32_t next;   ///< Number of the next frame to send.
     uint32_t limit;  ///< First number that there is no credit for yet.
+    uint8_t speaks;  ///< Version of the last frame that came, if it is not this program's; else 0.
 
     /* Private. */
     int descriptor;

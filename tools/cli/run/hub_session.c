@@ -2,6 +2,8 @@
 /* Talk with a hub. */
 #include "run/hub_session.h"
 
+#include "run/body_wire.h"
+
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -43,6 +45,8 @@ static void on_frame(void *context, const frame_t *frame)
                counters.token == session->token) {
         session->counters = counters;
         session->has_counters = true;
+    } else if (session->on_other != NULL) {
+        session->on_other(session->context, frame);
     }
 }
 
@@ -65,7 +69,8 @@ static exit_status_t silent(hub_session_t *session)
 static bool wait_answer(hub_session_t *session, const bool *done)
 {
     const int64_t until_us = hub_link_clock_us() + ASK_AGAIN_US;
-    for (int64_t left_us = ASK_AGAIN_US; left_us > 0 && !*done; left_us = until_us - hub_link_clock_us()) {
+    for (int64_t left_us = ASK_AGAIN_US; left_us > 0 && !*done && session->link.speaks == 0;
+         left_us = until_us - hub_link_clock_us()) {
         if (!hub_link_wait(&session->link, left_us)) {
             return false;
         }
@@ -92,41 +97,70 @@ void hub_session_listen(hub_session_t *session, hub_event_t *on_event, void *con
     session->context = context;
 }
 
-static bool send_start(hub_session_t *session, message_start_t *start)
+/* The nonce is the first field. */
+static bool send_start(hub_session_t *session, frame_type_t type, frame_writer_t *start)
 {
-    frame_writer_t payload;
-    start->nonce = session->token;
-    message_write_start(&payload, start);
+    frame_writer_t nonce;
+    message_write_number(&nonce, session->token);
+    memcpy(start->bytes, nonce.bytes, nonce.size);
     session->link.next = 0;
-    return hub_link_send(&session->link, FRAME_START, &payload);
+    return hub_link_send(&session->link, type, start);
+}
+
+static exit_status_t speaks_other(hub_session_t *session)
+{
+    progress_clear(session->progress);
+    complain(session->target.target, 0, 0, "the hub speaks protocol %u, this program %u",
+             (unsigned)session->link.speaks, FRAME_VERSION);
+    return EXIT_TROUBLE;
 }
 
 /* Numbers that differ from run to run tell this session's answers from old ones. */
-exit_status_t hub_session_greet(hub_session_t *session, message_start_t start)
+static exit_status_t greet(hub_session_t *session, frame_type_t type, frame_writer_t *start)
 {
     session->token = (uint32_t)hub_link_clock_us() ^ ((uint32_t)getpid() << 16);
     const int64_t until_us = hub_link_clock_us() + session->target.timeout_us;
     while (!session->has_hello) {
         session->token++;
-        if (!send_start(session, &start) || !wait_answer(session, &session->has_hello)) {
-            return trouble(session, session->link.error);
+        if (!send_start(session, type, start) || !wait_answer(session, &session->has_hello)) {
+            return (session->link.speaks != 0) ? speaks_other(session) : trouble(session, session->link.error);
+        }
+        if (!session->has_hello && session->link.speaks != 0) {
+            return speaks_other(session);
         }
         if (!session->has_hello && hub_link_clock_us() > until_us) {
             return silent(session);
         }
     }
-    if (session->hello.refused) {
-        return trouble(session, "the hub refuses the configuration");
-    }
     session->link.limit = session->link.next + session->hello.credit;
     return EXIT_READY;
+}
+
+exit_status_t hub_session_greet(hub_session_t *session, message_start_t start)
+{
+    frame_writer_t payload;
+    message_write_start(&payload, &start);
+    const exit_status_t status = greet(session, FRAME_START, &payload);
+    return (status == EXIT_READY && session->hello.refused) ? trouble(session, "the hub refuses the configuration")
+                                                            : status;
+}
+
+exit_status_t hub_session_greet_body(hub_session_t *session, frame_writer_t *begin, hub_other_t *on_other,
+                                     void *context)
+{
+    session->on_other = on_other;
+    session->context = context;
+    const exit_status_t status = greet(session, (frame_type_t)BODY_WIRE_BEGIN, begin);
+    return (status == EXIT_READY && session->hello.refused)
+               ? trouble(session, "the hub has no room for so many sensors or joints")
+               : status;
 }
 
 static bool ask(hub_session_t *session)
 {
     frame_writer_t payload;
     session->token++;
-    session->has_estimate = false;
+    session->has_estimate = session->on_other != NULL;
     session->has_counters = false;
     message_write_number(&payload, session->token);
     return hub_link_send(&session->link, FRAME_REQUEST, &payload);
@@ -154,17 +188,36 @@ static exit_status_t wait_credit(hub_session_t *session)
     return EXIT_READY;
 }
 
-exit_status_t hub_session_send(hub_session_t *session, const jcal_pair_t *pair)
+exit_status_t hub_session_send_frame(hub_session_t *session, frame_type_t type, const frame_writer_t *payload)
 {
     const exit_status_t status = wait_credit(session);
     if (status != EXIT_READY) {
         return status;
     }
+    /* A look at what has come, so that it is written when it is made. */
+    if (!hub_link_send(&session->link, type, payload) || !hub_link_wait(&session->link, 0)) {
+        return trouble(session, session->link.error);
+    }
+    return EXIT_READY;
+}
+
+exit_status_t hub_session_send(hub_session_t *session, const jcal_pair_t *pair)
+{
     frame_writer_t payload;
     message_write_sample(&payload, pair);
-    /* A look at what has come, so that estimates are written when they are made. */
-    if (!hub_link_send(&session->link, FRAME_SAMPLE, &payload) || !hub_link_wait(&session->link, 0)) {
-        return trouble(session, session->link.error);
+    return hub_session_send_frame(session, FRAME_SAMPLE, &payload);
+}
+
+exit_status_t hub_session_wait_for(hub_session_t *session, const bool *done)
+{
+    const int64_t until_us = hub_link_clock_us() + session->target.timeout_us;
+    while (!*done) {
+        if (!wait_answer(session, done)) {
+            return trouble(session, session->link.error);
+        }
+        if (!*done && hub_link_clock_us() > until_us) {
+            return silent(session);
+        }
     }
     return EXIT_READY;
 }
@@ -177,7 +230,7 @@ exit_status_t hub_session_wait(hub_session_t *session, int64_t us)
 exit_status_t hub_session_ask(hub_session_t *session)
 {
     const int64_t until_us = hub_link_clock_us() + session->target.timeout_us;
-    session->has_estimate = false;
+    session->has_estimate = session->on_other != NULL; /* a body session has none */
     session->has_counters = false;
     while (!(session->has_estimate && session->has_counters)) {
         if (!ask(session) || !wait_answer(session, &session->has_counters)) {

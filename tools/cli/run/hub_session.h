@@ -18,19 +18,23 @@ typedef struct {
 /// Called with each estimate that the hub sends of its own accord; `event` is ready, moved or estimate.
 typedef void hub_event_t(void *context, const char *event, const message_estimate_t *estimate);
 
+/// Called with a frame that is none of a pair session's.
+typedef void hub_other_t(void *context, const frame_t *frame);
+
 typedef struct {
     hub_link_t link;
     message_estimate_t estimate;  ///< Answer to the last question.
     message_counters_t counters;
+    uint32_t token;  ///< Of the last question.
 
     /* Private. */
     hub_target_t target;
     progress_t *progress; /* taken away before a message */
     hub_event_t *on_event;
+    hub_other_t *on_other; /* a body session's; null in a pair session */
     void *context;
     message_hello_t hello;
     bool has_hello, has_estimate, has_counters; /* answers to the last question */
-    uint32_t token;
 } hub_session_t;
 
 /// Connects. EXIT_READY, or another status after a message.
@@ -41,6 +45,16 @@ void hub_session_listen(hub_session_t *session, hub_event_t *on_event, void *con
 
 /// Says hello with the config until the hub answers. EXIT_READY, or another status after a message.
 exit_status_t hub_session_greet(hub_session_t *session, message_start_t start);
+
+/// The same of a body session: says begin. `begin` is its payload, whose nonce is filled in; on_other gets what comes.
+exit_status_t hub_session_greet_body(hub_session_t *session, frame_writer_t *begin, hub_other_t *on_other,
+                                     void *context);
+
+/// Sends any frame as soon as the hub can take it, and looks at what has come. EXIT_READY, or another status after a message.
+exit_status_t hub_session_send_frame(hub_session_t *session, frame_type_t type, const frame_writer_t *payload);
+
+/// Waits until what `done` points to is true, for as long as the hub may be silent. EXIT_READY, or another status after a message.
+exit_status_t hub_session_wait_for(hub_session_t *session, const bool *done);
 
 /// Sends a sample as soon as the hub can take it, and looks at what has come. EXIT_READY, or another status after a message.
 exit_status_t hub_session_send(hub_session_t *session, const jcal_pair_t *pair);

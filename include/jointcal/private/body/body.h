@@ -17,6 +17,7 @@ typedef struct {
     jcal_body_round_t round;
     jcal_body_probe_t probe;
     jcal_body_exam_t exam;
+    jcal_body_restore_t restore;
     jcal_body_events_t events;
     uint32_t rounds;        ///< Common times so far.
     uint32_t restarts;      ///< Times that the hub's clock began anew.

@@ -4,6 +4,7 @@
 #ifndef JCAL_PRIVATE_BODY_STATE_H
 #define JCAL_PRIVATE_BODY_STATE_H
 
+#include "jointcal/private/keep/writer.h"
 #include "jointcal/private/packet/packets.h"
 #include "jointcal/private/sensor/stage.h"
 #include "jointcal/types.h"
@@ -16,7 +17,9 @@ extern "C" {
 #endif
 
 /// Events that may wait.
-#define JCAL_BODY_EVENTS 32u
+/// Places for kept calibrations that are looked at.
+#define JCAL_BODY_PLACES 6u
+#define JCAL_BODY_EVENTS 16u
 
 /// The last two readings of a sensor, by the body's time, less its lag.
 typedef struct {
@@ -52,10 +55,13 @@ typedef struct {
     uint8_t status;            ///< As last told: jcal_calibration_t.
     uint8_t ticks;             ///< Ticks since it was looked at.
     bool lag_known;
-    uint8_t against;  ///< Looks at which the two sensors seemed to share no joint, less those at which they did.
-    bool no_lag;      ///< No lag was found although it moved: nothing that both sensors share was seen at any.
-    bool not_one;     ///< That was told.
-    bool due;         ///< Its engine may have a slice of work.
+    uint8_t against;      ///< Looks at which the two sensors seemed to share no joint, less those at which they did.
+    bool no_lag;          ///< No lag was found although it moved: nothing that both sensors share was seen at any.
+    bool not_one;         ///< That was told.
+    bool due;             ///< Its engine may have a slice of work.
+    uint8_t kept;         ///< What became of its kept calibration: jcal_body_kept_phase_t of lib/body/restore.h.
+    uint8_t kept_reason;  ///< jcal_remember_reason_t.
+    bool lag_is_kept;     ///< Its lag is that of its kept calibration.
 } jcal_body_joint_t;
 
 /// Something that happened.
@@ -102,6 +108,20 @@ typedef struct {
     uint8_t joint;    ///< 255: nobody's.
     bool due;         ///< A slice of work may be due.
 } jcal_body_probe_t;
+
+/// Kept calibrations that are looked at, and what is worth a write.
+typedef struct {
+    uint32_t since[JCAL_BODY_PLACES];  ///< Round in which each got its place.
+    uint32_t rest;                     ///< Round until which nobody is looked at.
+    uint32_t checked;                  ///< Round in which a joint was last looked at for something worth a write.
+    uint32_t worth;                    ///< Bit j: joint j has something worth a write.
+    jcal_keep_schedule_t schedule;
+    uint8_t joint[JCAL_BODY_PLACES];  ///< 255: the place is free.
+    uint8_t next;                     ///< Place whose slice is next ...
+    uint8_t next_joint;               ///< ... joint that is next to get a place ...
+    uint8_t next_check;               ///< ... and joint that is next to be looked at for a write.
+    bool open;                        ///< The memory that is shared has places, not a lag.
+} jcal_body_restore_t;
 
 /// Who is examined.
 typedef struct {

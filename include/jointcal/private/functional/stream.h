@@ -45,7 +45,9 @@ typedef struct {
     float credit;    ///< Slices that are paid for.
     uint8_t slice;   ///< Next slice of the judgement.
     int8_t kept_sign[2];
-    bool merged;  ///< A block was merged: headings cannot be begun anew any more.
+    bool merged;   ///< A block was merged: headings cannot be begun anew any more.
+    bool asleep;   ///< Nothing is learnt: the heading is followed, and slips are watched for.
+    bool adopted;  ///< The estimate was handed over, and is not of the sums.
 } jcal_functional_t;
 
 #ifdef __cplusplus
