@@ -16,9 +16,9 @@
 extern "C" {
 #endif
 
+/// Places for kept calibrations that are looked at: as many as fit into the lag's memory.
+#define JCAL_BODY_PLACES 5u
 /// Events that may wait.
-/// Places for kept calibrations that are looked at.
-#define JCAL_BODY_PLACES 6u
 #define JCAL_BODY_EVENTS 16u
 
 /// The last two readings of a sensor, by the body's time, less its lag.
