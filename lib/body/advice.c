@@ -2,6 +2,7 @@
 /// @file
 /// What to do next, and as a sentence. See body.h.
 #include "body/report.h"
+#include "body/restore.h"
 
 #include <stddef.h>
 
@@ -143,6 +144,10 @@ jcal_status_t jcal_body_sentence(const jcal_body_t *self, const jcal_body_advice
         const char *before;
         const char *after;
         words_of(advice, &before, &after);
+        if ((advice->hint != JCAL_HINT_CHECK_SENSORS) && jcal_body_restore_waits(self, advice->joint)) {
+            before = "Bend the ";
+            after = ": its calibration of before is being checked.";
+        }
         put(&writer, before);
         put_name(&writer, self->table.joints[advice->joint].name, "joint ", advice->joint);
         put(&writer, after);

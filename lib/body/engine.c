@@ -203,6 +203,11 @@ bool jcal_body_engine_adopt(const jcal_body_joint_spec_t *joint, const jcal_kept
     return jcal_functional_adopt(joint->engine.hinge, &known) == JCAL_OK;
 }
 
+bool jcal_body_engine_is_adopted(const jcal_body_joint_spec_t *joint)
+{
+    return (joint->kind == JCAL_BODY_HINGE) && joint->engine.hinge->adopted;
+}
+
 bool jcal_body_engine_sleeps(const jcal_body_joint_spec_t *joint)
 {
     return (joint->kind == JCAL_BODY_HINGE) && jcal_functional_sleeps(joint->engine.hinge);

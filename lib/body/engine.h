@@ -28,6 +28,9 @@ bool jcal_body_engine_kept(const jcal_body_joint_spec_t *joint, jcal_kept_t *out
 bool jcal_body_engine_adopt(const jcal_body_joint_spec_t *joint, const jcal_kept_t *kept,
                             const jcal_remember_result_t *confirmed);
 
+/// True if what it says was handed over, and is not of its own sums.
+bool jcal_body_engine_is_adopted(const jcal_body_joint_spec_t *joint);
+
 /// True if it sleeps.
 bool jcal_body_engine_sleeps(const jcal_body_joint_spec_t *joint);
 

@@ -35,12 +35,12 @@ jcal_status_t jcal_body_kept(const jcal_body_t *self, unsigned joint, jcal_kept_
     return JCAL_OK;
 }
 
-/// True if what is known of a joint is worth a write. What was handed over from flash is not.
+/// True if what is known of a joint is worth a write. What was handed over from flash is there already.
 static bool is_worth(const jcal_body_t *self, unsigned j)
 {
     jcal_kept_t now;
     jcal_kept_t kept;
-    if (jcal_body_engine_sleeps(&self->table.joints[j]) || (jcal_body_kept(self, j, &now) != JCAL_OK)) {
+    if (jcal_body_engine_is_adopted(&self->table.joints[j]) || (jcal_body_kept(self, j, &now) != JCAL_OK)) {
         return false;
     }
     const jcal_kept_wanted_t wanted = {now.kind, (uint8_t)j, now.serial1, now.serial2};
@@ -98,7 +98,8 @@ jcal_status_t jcal_body_keep(jcal_body_t *self)
         return JCAL_ERR_FLASH;
     }
     self->restore.worth &= ~put;
-    const jcal_body_event_t event = {jcal_body_time(self), 0.0f, (uint8_t)JCAL_BODY_KEPT, JCAL_BODY_NONE, JCAL_BODY_NONE, 0u};
+    const jcal_body_event_t event = {jcal_body_time(self), 0.0f,           (uint8_t)JCAL_BODY_KEPT,
+                                     JCAL_BODY_NONE,       JCAL_BODY_NONE, 0u};
     jcal_body_events_put(&self->events, &event);
     return JCAL_OK;
 }

@@ -56,6 +56,7 @@ void jcal_body_look(jcal_body_t *self, unsigned joint)
         jcal_body_tell_joint(self, joint, JCAL_BODY_READY, 0u, 0.0f);
     } else if (was_ready && (status == (unsigned)JCAL_MOVED)) {
         jcal_body_tell_joint(self, joint, JCAL_BODY_MOVED, reason, 0.0f);
+        jcal_body_restore_moved(self, joint);
     } else if (was_ready && (status != (unsigned)JCAL_READY)) {
         jcal_body_tell_joint(self, joint, JCAL_BODY_LEFT_READY, reason, 0.0f);
     } else {

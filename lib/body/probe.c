@@ -91,6 +91,9 @@ static void align(jcal_body_t *self)
         return;
     }
     state->lag_s += off_s;
+    if (state->off_us == 0) { /* the engine began anew */
+        jcal_body_restore_again(self, self->probe.joint);
+    }
     if (fabsf(off_s) > DENIED_S) {
         state->lag_known = false;
         state->lag_bound_s = JCAL_LAG_UNKNOWN_S;

@@ -11,8 +11,10 @@
 #include <stddef.h>
 
 /// A place is given back after this, us: if the joint moved for less than STILL_S; if it moved for ENOUGH_S without a decision, which is then left to the
-/// joint's own estimator; or if another joint waits.
+/// joint's own estimator; or if another joint waits. After LONG_US it is given back in any case: a joint that has stopped moving must not keep the
+/// lag waiting.
 #define TURN_US 20000000u
+#define LONG_US 60000000u
 #define STILL_S 1.0f
 #define ENOUGH_S 10.0f
 /// If nobody moves the memory is the lag's for so long, us.
@@ -118,6 +120,9 @@ static void read_record(jcal_body_t *self, unsigned j)
         state->kept = (uint8_t)JCAL_BODY_KEPT_WAITS;
         state->kept_reason = (uint8_t)JCAL_REMEMBER_NO_MOTION;
         take_lag(self, j, &kept);
+        if (!state->lag_known) { /* times that may be off by anything tell nothing of axes */
+            state->kept = (uint8_t)JCAL_BODY_KEPT_LEFT;
+        }
         jcal_body_tell_joint(self, j, JCAL_BODY_REMEMBERED, 0u, 0.0f);
     } else if (refusal != JCAL_KEPT_NONE) {
         drop(self, j, (refusal == JCAL_KEPT_OTHER_SENSORS) ? JCAL_REMEMBER_OTHER_SENSORS : JCAL_REMEMBER_NO_RECORD);
@@ -151,7 +156,8 @@ static bool give(jcal_body_t *self, unsigned place)
 }
 
 /// What motion has confirmed gives angles at once, if it is good enough for any.
-static void confirm(jcal_body_t *self, unsigned j, const jcal_remember_t *remember, const jcal_remember_result_t *result)
+static void confirm(jcal_body_t *self, unsigned j, const jcal_remember_t *remember,
+                    const jcal_remember_result_t *result)
 {
     jcal_body_joint_t *const state = &self->table.joint_states[j];
     state->kept = (uint8_t)JCAL_BODY_KEPT_CONFIRMED;
@@ -170,7 +176,8 @@ static void decide(jcal_body_t *self, unsigned place)
     jcal_remember_result_t result;
     (void)jcal_remember_get(remember, &result);
     state->kept_reason = (uint8_t)result.reason;
-    const bool turn_ends = (self->round.number - restore->since[place]) >= rounds_of(self, TURN_US);
+    const uint32_t since = self->round.number - restore->since[place];
+    const bool turn_ends = since >= rounds_of(self, TURN_US);
     if (result.state == JCAL_REMEMBER_CONFIRMED) {
         confirm(self, j, remember, &result);
     } else if (result.state == JCAL_REMEMBER_DROPPED) {
@@ -181,6 +188,8 @@ static void decide(jcal_body_t *self, unsigned place)
         state->kept = (uint8_t)JCAL_BODY_KEPT_LEFT;
     } else if (turn_ends && (find(self, JCAL_BODY_KEPT_WAITS, 0u) != JCAL_BODY_NONE)) {
         state->kept = (uint8_t)JCAL_BODY_KEPT_WAITS;
+    } else if (since >= rounds_of(self, LONG_US)) {
+        state->kept = (uint8_t)JCAL_BODY_KEPT_STILL;
     } else {
         return;
     }
@@ -264,9 +273,21 @@ static bool is_remembered(const jcal_body_t *self, unsigned j)
     return (phase >= (uint8_t)JCAL_BODY_KEPT_WAITS) && (phase <= (uint8_t)JCAL_BODY_KEPT_LEFT);
 }
 
+/// Takes a joint's place away, if it has one.
+static void free_place(jcal_body_t *self, unsigned joint)
+{
+    for (unsigned p = 0u; p < JCAL_BODY_PLACES; ++p) {
+        if (self->restore.joint[p] == joint) {
+            self->restore.joint[p] = JCAL_BODY_NONE;
+        }
+    }
+}
+
 void jcal_body_restore_settle(jcal_body_t *self, unsigned joint)
 {
-    if (!is_remembered(self, joint)) {
+    const bool was_confirmed = is_in(self, joint, JCAL_BODY_KEPT_CONFIRMED);
+    const bool is_compared = was_confirmed && !jcal_body_engine_is_adopted(&self->table.joints[joint]);
+    if (!is_remembered(self, joint) && !is_compared) {
         return;
     }
     const jcal_kept_wanted_t wanted = wanted_of(self, joint);
@@ -278,19 +299,45 @@ void jcal_body_restore_settle(jcal_body_t *self, unsigned joint)
     if (!jcal_body_engine_kept(&self->table.joints[joint], &now)) {
         return;
     }
-    for (unsigned p = 0u; p < JCAL_BODY_PLACES; ++p) {
-        self->restore.joint[p] =
-            (self->restore.joint[p] == joint) ? (uint8_t)JCAL_BODY_NONE : self->restore.joint[p];
-    }
+    free_place(self, joint);
     const bool is_there = jcal_keep_load(self->table.flash, &wanted, &kept) == JCAL_KEPT_FITS;
-    if (is_there && jcal_remember_agrees(&kept, &now)) {
-        jcal_body_joint_t *const state = &self->table.joint_states[joint];
-        state->kept = (uint8_t)JCAL_BODY_KEPT_CONFIRMED;
-        state->kept_reason = (uint8_t)JCAL_REMEMBER_NONE;
+    if (!is_there || !jcal_remember_agrees(&kept, &now)) {
+        drop(self, joint, JCAL_REMEMBER_ESTIMATE);
+        return;
+    }
+    jcal_body_joint_t *const state = &self->table.joint_states[joint];
+    state->kept = (uint8_t)JCAL_BODY_KEPT_SETTLED;
+    state->kept_reason = (uint8_t)JCAL_REMEMBER_NONE;
+    if (!was_confirmed) {
         jcal_body_tell_joint(self, joint, JCAL_BODY_CONFIRMED, 0u, 0.0f);
-    } else {
+    }
+}
+
+static bool is_confirmed(const jcal_body_t *self, unsigned joint)
+{
+    return is_in(self, joint, JCAL_BODY_KEPT_CONFIRMED) || is_in(self, joint, JCAL_BODY_KEPT_SETTLED);
+}
+
+void jcal_body_restore_moved(jcal_body_t *self, unsigned joint)
+{
+    if (is_confirmed(self, joint)) {
         drop(self, joint, JCAL_REMEMBER_ESTIMATE);
     }
+}
+
+void jcal_body_restore_again(jcal_body_t *self, unsigned joint)
+{
+    if (is_remembered(self, joint) || is_confirmed(self, joint)) {
+        free_place(self, joint);
+        self->table.joint_states[joint].kept = (uint8_t)JCAL_BODY_KEPT_WAITS;
+        self->table.joint_states[joint].kept_reason = (uint8_t)JCAL_REMEMBER_NO_MOTION;
+    }
+}
+
+bool jcal_body_restore_waits(const jcal_body_t *self, unsigned joint)
+{
+    return (self->table.joints[joint].kind == JCAL_BODY_HINGE) && is_remembered(self, joint) &&
+           !is_in(self, joint, JCAL_BODY_KEPT_LEFT);
 }
 
 void jcal_body_restore_report(const jcal_body_t *self, unsigned joint, jcal_body_joint_result_t *out)
@@ -299,7 +346,7 @@ void jcal_body_restore_report(const jcal_body_t *self, unsigned joint, jcal_body
     out->has_kept = state->kept >= (uint8_t)JCAL_BODY_KEPT_WAITS;
     out->kept_reason = (jcal_remember_reason_t)state->kept_reason;
     out->kept = JCAL_REMEMBERED;
-    if (is_in(self, joint, JCAL_BODY_KEPT_CONFIRMED)) {
+    if (is_confirmed(self, joint)) {
         out->kept = JCAL_REMEMBER_CONFIRMED;
     } else if (is_in(self, joint, JCAL_BODY_KEPT_DROPPED)) {
         out->kept = JCAL_REMEMBER_DROPPED;

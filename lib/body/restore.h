@@ -17,8 +17,9 @@ typedef enum {
     JCAL_BODY_KEPT_LOOKED_AT = 3,  ///< has one,
     JCAL_BODY_KEPT_STILL = 4,      ///< gave it back, for nothing moved,
     JCAL_BODY_KEPT_LEFT = 5,       ///< or is left to the joint's own estimator.
-    JCAL_BODY_KEPT_CONFIRMED = 6,
-    JCAL_BODY_KEPT_DROPPED = 7
+    JCAL_BODY_KEPT_CONFIRMED = 6,  ///< By motion; it is compared once the joint's own estimator is ready.
+    JCAL_BODY_KEPT_SETTLED = 7,    ///< Confirmed by the joint's own estimator.
+    JCAL_BODY_KEPT_DROPPED = 8
 } jcal_body_kept_phase_t;
 
 /// The power came: all that is kept is to be read, if there is a flash.
@@ -33,8 +34,17 @@ bool jcal_body_restore_step(jcal_body_t *self);
 /// True if the shared memory is in use here, or is wanted: no lag may begin.
 bool jcal_body_restore_first(const jcal_body_t *self);
 
-/// A joint's own estimator is ready: what is still remembered is confirmed or dropped.
+/// A joint is ready: by its own estimator, unless it sleeps with what was handed over. What was kept is confirmed or dropped.
 void jcal_body_restore_settle(jcal_body_t *self, unsigned joint);
+
+/// A sensor of a joint slipped: what was confirmed does not hold any more.
+void jcal_body_restore_moved(jcal_body_t *self, unsigned joint);
+
+/// A joint's estimator began anew, for its lag was another: what was not dropped is looked at again.
+void jcal_body_restore_again(jcal_body_t *self, unsigned joint);
+
+/// True if motion is to confirm what was kept of a hinge.
+bool jcal_body_restore_waits(const jcal_body_t *self, unsigned joint);
 
 /// Fills in has_kept, kept and kept_reason.
 void jcal_body_restore_report(const jcal_body_t *self, unsigned joint, jcal_body_joint_result_t *out);

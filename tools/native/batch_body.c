@@ -17,9 +17,44 @@ typedef struct {
     jcal_body_joint_t joint_states[JCAL_BATCH_BODY_JOINTS];
     jcal_functional_t hinges[JCAL_BATCH_BODY_JOINTS];
     jcal_body_shared_t shared;
+    jcal_flash_t flash;
     jcal_health_t health;
     jcal_body_t body;
 } whole_t;
+
+static bool flash_erase(void *context, unsigned slot)
+{
+    memset((uint8_t *)context + slot * JCAL_BATCH_SLOT_BYTES, 0xFF, JCAL_BATCH_SLOT_BYTES);
+    return true;
+}
+
+static bool flash_program(void *context, unsigned slot, uint32_t offset, const uint8_t *bytes, uint32_t n)
+{
+    memcpy((uint8_t *)context + slot * JCAL_BATCH_SLOT_BYTES + offset, bytes, n);
+    return true;
+}
+
+static bool flash_read(void *context, unsigned slot, uint32_t offset, uint8_t *bytes, uint32_t n)
+{
+    memcpy(bytes, (uint8_t *)context + slot * JCAL_BATCH_SLOT_BYTES + offset, n);
+    return true;
+}
+
+/* What is ready is written, whatever the schedule says. */
+static bool keep_all(const whole_t *w, unsigned joints)
+{
+    jcal_keep_writer_t writer;
+    if (jcal_keep_begin(&writer, &w->flash, joints) != JCAL_OK) {
+        return false;
+    }
+    for (unsigned j = 0; j < joints; j++) {
+        jcal_kept_t kept;
+        if (jcal_body_kept(&w->body, j, &kept) == JCAL_OK && jcal_keep_put(&writer, &kept) != JCAL_OK) {
+            return false;
+        }
+    }
+    return jcal_keep_commit(&writer) == JCAL_OK;
+}
 
 static bool begin(whole_t *w, const jcal_batch_body_in_t *in)
 {
@@ -33,7 +68,8 @@ static bool begin(whole_t *w, const jcal_batch_body_in_t *in)
     w->packets.counter_bits = (uint8_t)in->counter_bits;
     w->packets.max_delay_s = 0.5f;
     for (unsigned s = 0; s < sensors; s++) {
-        const jcal_body_sensor_spec_t spec = {NULL, &w->packets, w->storage[s], sizeof(w->storage[s]), 0u};
+        const jcal_body_sensor_spec_t spec = {NULL, &w->packets, w->storage[s], sizeof(w->storage[s]),
+                                              (in->serials != NULL) ? in->serials[s] : 0u};
         w->sensors[s] = spec;
     }
     for (unsigned j = 0; j < joints; j++) {
@@ -44,8 +80,11 @@ static bool begin(whole_t *w, const jcal_batch_body_in_t *in)
             return false;
         }
     }
-    const jcal_body_table_t table = {w->sensors,      w->sensor_states, sensors, w->joints,
-                                     w->joint_states, joints,           &w->shared, &w->health, NULL};
+    const jcal_flash_t flash = {in->flash, JCAL_BATCH_SLOT_BYTES, 32u, flash_erase, flash_program, flash_read};
+    w->flash = flash;
+    const jcal_body_table_t table = {w->sensors, w->sensor_states, sensors,
+                                     w->joints,  w->joint_states,  joints,
+                                     &w->shared, &w->health,       (in->flash != NULL) ? &w->flash : NULL};
     return jcal_body_init(&w->body, &table, &config) == JCAL_OK;
 }
 
@@ -72,7 +111,10 @@ static void write_rows(const whole_t *w, const jcal_batch_body_in_t *in, uint64_
                                                        r.uncertainty1_rad,
                                                        r.uncertainty2_rad,
                                                        r.flexion_rad,
-                                                       r.flexion_bound_rad};
+                                                       r.flexion_bound_rad,
+                                                       r.has_kept ? 1.0f : 0.0f,
+                                                       (float)r.kept,
+                                                       (float)r.kept_reason};
         memcpy(row, values, sizeof(values));
         row += JCAL_BATCH_BODY_COLUMNS;
     }
@@ -142,6 +184,9 @@ int32_t jcal_batch_body(const jcal_batch_body_in_t *in, jcal_batch_body_out_t *o
     (void)jcal_body_status(&whole.body, &out->status);
     for (unsigned s = 0; s < (unsigned)in->sensor_count; s++) {
         (void)jcal_body_sensor(&whole.body, s, &out->sensors[s]);
+    }
+    if (in->flash != NULL && in->keeps != 0 && !keep_all(&whole, (unsigned)in->joint_count)) {
+        return JCAL_BATCH_CONFIG;
     }
     return JCAL_BATCH_DONE;
 }

@@ -10,10 +10,12 @@
 #define JCAL_BATCH_BODY_SENSORS 16
 #define JCAL_BATCH_BODY_JOINTS 15
 /* Numbers per joint and row: status, reason, for_axes, lag_known, lag_s, lag_bound_s, axis1 (3), axis2 (3), uncertainty1_rad,
-   uncertainty2_rad, flexion_rad, flexion_bound_rad. */
-#define JCAL_BATCH_BODY_COLUMNS 16
+   uncertainty2_rad, flexion_rad, flexion_bound_rad, has_kept, kept, kept_reason. */
+#define JCAL_BATCH_BODY_COLUMNS 19
 /* Numbers per event: kind, joint, sensor, what, value. */
 #define JCAL_BATCH_EVENT_COLUMNS 5
+/* Bytes of each of the two slots of a flash. */
+#define JCAL_BATCH_SLOT_BYTES 4096
 
 /* Packets in the order of arrival; `at` is the row of the sensor's first reading, `si` a pointer to each sensor's readings x 6. */
 typedef struct {
@@ -29,8 +31,11 @@ typedef struct {
     const uint32_t *at;
     size_t count;
     int32_t counter_bits;
-    int32_t units; /* of each step */
-    int32_t every; /* steps from row to row */
+    int32_t units;           /* of each step */
+    int32_t every;           /* steps from row to row */
+    const uint64_t *serials; /* of each sensor; null: none is known */
+    uint8_t *flash;          /* two slots, which outlast a run; null: nothing is kept */
+    int32_t keeps;           /* at the end all that is ready is written */
 } jcal_batch_body_in_t;
 
 typedef struct {

@@ -14,8 +14,9 @@ import numpy as np
 from .native import library
 from .native_hub import PacketCounts, Packets, as_dict
 
-SENSORS, COLUMNS, EVENT_COLUMNS = 16, 16, 5  # of tools/native/batch_body.h
-EVENTS = ("ready", "left_ready", "moved", "not_one", "lag_found", "sensor_bad", "sensor_fine", "sensor_lost", "sensor_back")
+SENSORS, COLUMNS, EVENT_COLUMNS, FLASH_BYTES = 16, 19, 5, 2 * 4096  # of tools/native/batch_body.h
+EVENTS = ("ready", "left_ready", "moved", "not_one", "lag_found", "sensor_bad", "sensor_fine", "sensor_lost", "sensor_back",
+          "remembered", "confirmed", "dropped", "kept")
 EVENT_ROOM = 20000
 
 
@@ -24,7 +25,8 @@ class Input(ctypes.Structure):
 
     _fields_ = [("sensor_count", ctypes.c_int32), ("joint_count", ctypes.c_int32), ("proximal", ctypes.c_void_p), ("distal", ctypes.c_void_p),
                 ("si", ctypes.c_void_p * SENSORS), *((name, ctypes.c_void_p) for name in ("which", "arrival_us", "counter", "readings", "at")),
-                ("count", ctypes.c_size_t), ("counter_bits", ctypes.c_int32), ("units", ctypes.c_int32), ("every", ctypes.c_int32)]
+                ("count", ctypes.c_size_t), ("counter_bits", ctypes.c_int32), ("units", ctypes.c_int32), ("every", ctypes.c_int32),
+                ("serials", ctypes.c_void_p), ("flash", ctypes.c_void_p), ("keeps", ctypes.c_int32)]
 
 
 class Status(ctypes.Structure):
@@ -65,8 +67,12 @@ class Found:
     steps: int
 
 
-def run(joints: list[tuple[int, int]], values: list[np.ndarray], packets: Packets, counter_bits: int, units: int, every: int = 25) -> Found:
-    """`joints`: proximal and distal sensor; `values`: (N, 6) of each sensor; a row every `every` hundredths of a second."""
+def run(joints: list[tuple[int, int]], values: list[np.ndarray], packets: Packets, counter_bits: int, units: int, every: int = 25,
+        serials: list[int] | None = None, flash: np.ndarray | None = None, keeps: bool = False) -> Found:
+    """`joints`: proximal and distal sensor; `values`: (N, 6) of each sensor; a row every `every` hundredths of a second.
+
+    `flash`: FLASH_BYTES that outlast the run, with the `serials` of all sensors; `keeps`: at the end what is ready is written to it.
+    """
     given, out, keep = Input(), Output(), []
 
     def pointer(array: np.ndarray, kind: type) -> int:
@@ -80,6 +86,8 @@ def run(joints: list[tuple[int, int]], values: list[np.ndarray], packets: Packet
     for name, kind in (("which", np.uint8), ("arrival_us", np.uint64), ("counter", np.uint32), ("readings", np.uint8), ("at", np.uint32)):
         setattr(given, name, pointer(getattr(packets, name), kind))
     given.count, given.counter_bits, given.units, given.every = len(packets.which), counter_bits, units, every
+    if serials is not None and flash is not None:
+        given.serials, given.flash, given.keeps = pointer(np.array(serials), np.uint64), flash.ctypes.data, int(keeps)
     room = int((int(packets.arrival_us[-1]) - int(packets.arrival_us[0])) / (10000 * every)) + 300
     row_us, time_us, rows = np.zeros(room, np.uint64), np.zeros(room, np.uint64), np.zeros((room, len(joints), COLUMNS), np.float32)
     event_us, events = np.zeros(EVENT_ROOM, np.uint64), np.zeros((EVENT_ROOM, EVENT_COLUMNS), np.float32)
