@@ -66,6 +66,7 @@ MEASUREMENTS = {
     "pairing": "the lag of two sensors: recordings and simulated joints told a lag, unrelated pairs",
     "remember": "kept calibrations restored on the same sensors, and on ones that sit otherwise: confirmed, dropped, or neither",
     "body": "a whole person: sixteen sensors over a bad wire, fifteen joints: ready, errors, lags, angles, faults that are named",
+    "body_m4f": "ten minutes of a whole person on an emulated Cortex-M4F: instructions of every 10 ms, memory, the same bits as here",
     "soak": "an hour of packets of two sensors over a bad wire: counters, times, lag and calibration beside the truth",
     "cost": "time and memory, beside qmt",
 }

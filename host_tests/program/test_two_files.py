@@ -270,8 +270,8 @@ class BrokenFiles(ProgramTest):
         self.assert_usage(["hinge", "a", "--lag", "1"], "--lag goes with two files")
         for value in ("x", "", "nan", "inf", "1s"):
             self.assert_usage(["hinge", "a", "b", "--lag=" + value], "--lag: ")
-        for command in (["chain"], ["stream", "--to", "unix:x"]):
-            self.assert_usage([*command, "a", "b"], "'b' is a second one")
+        self.assert_usage(["chain", "a", "b"], "'b' is a second one")
+        self.assert_usage(["stream", "--to", "unix:x", "a", "b"], "several files are a body's")
 
     def test_what_is_wrong_with_a_file_is_said_of_it(self):
         for rows, reason in (([[1e6 * row[0], *row[1:]] for row in TWO], "rows are"),

@@ -86,9 +86,10 @@ typedef struct {
     const jcal_body_joint_spec_t *joints;
     jcal_body_joint_t *joint_states;  ///< joint_count of them.
     unsigned joint_count;             ///< 1 to JCAL_BODY_JOINTS_MAX.
-    jcal_body_shared_t *shared;  ///< One for all joints; null: sensors share one clock, no lag is looked for, nothing is remembered.
-    jcal_health_t *health;       ///< One for all sensors; null: none is examined.
-    const jcal_flash_t *flash;   ///< Where calibrations are kept; null: nowhere.
+    jcal_body_shared_t
+        *shared;  ///< One for all joints; null: sensors share one clock, no lag is looked for, nothing is remembered.
+    jcal_health_t *health;      ///< One for all sensors; null: none is examined.
+    const jcal_flash_t *flash;  ///< Where calibrations are kept; null: nowhere.
 } jcal_body_table_t;
 
 /// Settings of a body.

@@ -102,7 +102,7 @@ typedef struct {
     jcal_vec3_t joint_to_sensor1_m, joint_to_sensor2_m;
     float uncertainty1_rad, uncertainty2_rad;  ///< 95 % bounds.
     float flexion_uncertainty_rad;             ///< Error that the axes make in the angle, rms.
-    float usual[3];  ///< Mean squares of its residuals, above zero: jcal_functional_usual.
+    float usual[3];                            ///< Mean squares of its residuals, above zero: jcal_functional_usual.
 } jcal_functional_known_t;
 
 /// Forgets all data and takes over what is known: the joint is ready with it, and asleep.

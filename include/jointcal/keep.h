@@ -75,8 +75,10 @@ typedef struct {
     float flexion_zero_rad,
         pronation_zero_rad;  ///< Angles by jcal_frames_hinge or _two_dof in the zero pose: `is` of jcal_frames_zero.
     jcal_joint_frames_t frames;  ///< Ball: segment frames from a pose.
-    float lag_s, lag_bound_s;    ///< The times of sensor 2 were late by it, within JCAL_KEPT_LAG_MAX_S; its 95 % bound, up to as much.
-    float usual[3];  ///< Mean squares of the functional joint's residuals, up to 1e3: what the watch for slips compares with.
+    float lag_s,
+        lag_bound_s;  ///< The times of sensor 2 were late by it, within JCAL_KEPT_LAG_MAX_S; its 95 % bound, up to as much.
+    float usual
+        [3];  ///< Mean squares of the functional joint's residuals, up to 1e3: what the watch for slips compares with.
 } jcal_kept_t;
 
 /// What a record is asked for.

@@ -43,8 +43,9 @@ void jcal_body_tell_sensor(jcal_body_t *self, unsigned sensor, jcal_body_event_k
 
 const char *jcal_body_event_string(jcal_body_event_kind_t kind)
 {
-    static const char *const words[] = {"ready",      "left_ready",  "moved",       "not_one",    "lag_found",
-                                        "sensor_bad", "sensor_fine", "sensor_lost", "sensor_back", "remembered", "confirmed", "dropped", "kept"};
+    static const char *const words[] = {"ready",      "left_ready",  "moved",       "not_one",     "lag_found",
+                                        "sensor_bad", "sensor_fine", "sensor_lost", "sensor_back", "remembered",
+                                        "confirmed",  "dropped",     "kept"};
     const int index = (int)kind;
     return ((index >= 0) && ((size_t)index < (sizeof words / sizeof words[0]))) ? words[index] : NULL;
 }

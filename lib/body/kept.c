@@ -98,7 +98,8 @@ jcal_status_t jcal_body_keep(jcal_body_t *self)
         return JCAL_ERR_FLASH;
     }
     self->restore.worth &= ~put;
-    const jcal_body_event_t event = {jcal_body_time(self), 0.0f, (uint8_t)JCAL_BODY_KEPT, JCAL_BODY_NONE, JCAL_BODY_NONE, 0u};
+    const jcal_body_event_t event = {jcal_body_time(self), 0.0f,           (uint8_t)JCAL_BODY_KEPT,
+                                     JCAL_BODY_NONE,       JCAL_BODY_NONE, 0u};
     jcal_body_events_put(&self->events, &event);
     return JCAL_OK;
 }

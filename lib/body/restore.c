@@ -151,7 +151,8 @@ static bool give(jcal_body_t *self, unsigned place)
 }
 
 /// What motion has confirmed gives angles at once, if it is good enough for any.
-static void confirm(jcal_body_t *self, unsigned j, const jcal_remember_t *remember, const jcal_remember_result_t *result)
+static void confirm(jcal_body_t *self, unsigned j, const jcal_remember_t *remember,
+                    const jcal_remember_result_t *result)
 {
     jcal_body_joint_t *const state = &self->table.joint_states[j];
     state->kept = (uint8_t)JCAL_BODY_KEPT_CONFIRMED;
@@ -279,8 +280,7 @@ void jcal_body_restore_settle(jcal_body_t *self, unsigned joint)
         return;
     }
     for (unsigned p = 0u; p < JCAL_BODY_PLACES; ++p) {
-        self->restore.joint[p] =
-            (self->restore.joint[p] == joint) ? (uint8_t)JCAL_BODY_NONE : self->restore.joint[p];
+        self->restore.joint[p] = (self->restore.joint[p] == joint) ? (uint8_t)JCAL_BODY_NONE : self->restore.joint[p];
     }
     const bool is_there = jcal_keep_load(self->table.flash, &wanted, &kept) == JCAL_KEPT_FITS;
     if (is_there && jcal_remember_agrees(&kept, &now)) {

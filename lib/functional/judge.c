@@ -138,7 +138,8 @@ static jcal_hint_t hint_for(jcal_reason_t reason, jcal_weak_t weak)
     }
 }
 
-bool jcal_functional_is_for_flexion(float flexion_rad, float bound_rad, const jcal_functional_config_t *cfg, float slack)
+bool jcal_functional_is_for_flexion(float flexion_rad, float bound_rad, const jcal_functional_config_t *cfg,
+                                    float slack)
 {
     return (flexion_rad <= (slack * cfg->max_flexion_rad)) && (bound_rad <= (slack * BOUND_FOR_FLEXION_RAD));
 }

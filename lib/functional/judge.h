@@ -13,7 +13,8 @@
 void jcal_functional_judge(jcal_functional_t *self);
 
 /// True if an error of the angle and a bound of the axes are small enough for angles; `slack` more than 1 once ready.
-bool jcal_functional_is_for_flexion(float flexion_rad, float bound_rad, const jcal_functional_config_t *cfg, float slack);
+bool jcal_functional_is_for_flexion(float flexion_rad, float bound_rad, const jcal_functional_config_t *cfg,
+                                    float slack);
 
 /// Logarithm of the odds that the pairing of signs needs.
 #define JCAL_FUNCTIONAL_EVIDENCE_MIN 7.0f

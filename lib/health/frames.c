@@ -85,7 +85,7 @@ static jcal_vec3_t write(int8_t to[3], jcal_vec3_t v, float unit)
 /// 2^exponent, from -6 to 20.
 static float power_of_two(int8_t exponent)
 {
-    return (float)(1 << (exponent - EXPONENT_FIRST)) * (1.0f / 64.0f);
+    return (float)(UINT32_C(1) << ((uint32_t)(exponent - EXPONENT_FIRST) % 32u)) * (1.0f / 64.0f);
 }
 
 /// The unit of turns doubles.
@@ -158,7 +158,7 @@ static void follow(jcal_health_frames_t *self)
     }
     jcal_quat_t q = self->of.working.q;
     for (unsigned k = 0u; k < PART_BLOCKS; ++k) {
-        const unsigned at = ((unsigned)self->part * PART_BLOCKS) + k;
+        const unsigned at = ((self->part % JCAL_HEALTH_PARTS) * PART_BLOCKS) + k;
         const int8_t *const acc = self->acc[at];
         const jcal_vec3_t half = read_by(&reader, self->turn[at]);
         const bool is_short = jcal_vec3_dot(half, half) < (TURN_MAX_RAD * TURN_MAX_RAD);
@@ -240,9 +240,9 @@ static void finish_way(jcal_health_frames_t *self)
         self->way = JCAL_HEALTH_AS_IS + 1u;
         return;
     }
-    add_score(self, self->way, open);
+    add_score(self, self->way % JCAL_HEALTH_WAYS, open);
     self->way = (uint8_t)(self->way + 1u);
-    if (self->way == JCAL_HEALTH_STILL) {
+    if (self->way >= JCAL_HEALTH_STILL) {
         self->trials = (uint16_t)(self->trials + 1u);
         halve_if_long(self);
         jcal_health_frames_break(self);

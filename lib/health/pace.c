@@ -18,7 +18,7 @@
 static void count_gap(jcal_health_pace_t *self, uint64_t dt_us)
 {
     const float gap_s = (dt_us < UINT32_MAX) ? (1e-6f * (float)(uint32_t)dt_us) : 4295.0f;
-    const float lost = jcal_min((gap_s / self->period_s) - 0.5f, LOST_MOST);
+    const float lost = jcal_max(jcal_min((gap_s / self->period_s) - 0.5f, LOST_MOST), 0.0f);
     self->longest_s = jcal_max(self->longest_s, gap_s);
     self->gaps = (uint16_t)(self->gaps + ((self->gaps < UINT16_MAX) ? 1u : 0u));
     if (self->lost < (UINT32_MAX / 2u)) {

@@ -217,7 +217,7 @@ static void report(const jcal_hinge_evidence_t *self, jcal_hinge_verdict_t *verd
     verdict->bound1_rad = bounds->bound1_rad;
     verdict->bound2_rad = bounds->bound2_rad;
     verdict->sign_margin = sign->margin;
-    verdict->sign_progress = (uint8_t)(255.0f * jcal_max(0.0f, jcal_min(1.0f, sign->evidence / SIGN_EVIDENCE_MIN)));
+    verdict->sign_progress = (uint8_t)(255.0f * jcal_max(jcal_min(sign->evidence / SIGN_EVIDENCE_MIN, 1.0f), 0.0f));
 }
 
 /// Why there are no bounds.

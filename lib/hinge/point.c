@@ -4,6 +4,7 @@
 #include "hinge/point.h"
 
 #include "joint/sign.h"
+#include "math/scalar.h"
 #include "math/sphere.h"
 
 #include <math.h>
@@ -34,7 +35,8 @@ void jcal_hinge_point_set(jcal_hinge_point_t *point, jcal_vec3_t j1, jcal_vec3_t
 
 static int16_t note_component(float c)
 {
-    return (int16_t)((NOTE_ONE * c) + ((c < 0.0f) ? -0.5f : 0.5f));
+    const float within = jcal_max(jcal_min(c, 1.0f), -1.0f);
+    return (int16_t)((NOTE_ONE * within) + ((within < 0.0f) ? -0.5f : 0.5f));
 }
 
 jcal_hinge_note_t jcal_hinge_note(jcal_vec3_t j)

@@ -260,6 +260,7 @@ bool jcal_envelope_put(jcal_envelope_t *self, const jcal_packet_config_t *cfg, u
         return true;
     }
     self->above_us += jcal_min(above_us, 0.0f);
+    self->count = ((self->count - 1u) < POINTS) ? self->count : 1u; /* memory may be damaged */
     if ((((uint32_t)at - self->open_at) >= self->width) || is_long_since(self, us)) {
         close_block(self, cfg->period_ns, us);
         open_block(self, at, us);

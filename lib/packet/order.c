@@ -13,6 +13,8 @@
 /// Numbers begin here, so that those before the first one are numbers too.
 #define NUMBER_ROUNDS 2u
 #define ROUND_BITS 32u
+/// Beyond what any drift makes of the periods of the largest time, 2^30.
+#define DRIFT_MOST 1073741824.0f
 
 static bool is_far(int64_t us)
 {
@@ -37,7 +39,8 @@ static bool number_last(const jcal_packet_config_t *cfg, const jcal_envelope_t *
         return false;
     }
     int64_t periods = (since_us * 1000) / (int64_t)cfg->period_ns;
-    periods -= (int32_t)(jcal_float_of(periods) * (1e-6f * envelope->drift_ppm)); /* below 2^26 */
+    const float drift = jcal_float_of(periods) * (1e-6f * envelope->drift_ppm); /* below 2^26 */
+    periods -= jcal_within(drift, -DRIFT_MOST, DRIFT_MOST) ? (int32_t)drift : 0;
     const uint64_t guess = envelope->anchor_at + (uint64_t)periods;
     const uint32_t counter = head->counter + (head->count - 1u);
     *last = guess + (uint64_t)(int64_t)wrapped(counter - (uint32_t)guess, cfg->counter_bits);

@@ -62,7 +62,7 @@ uint64_t jcal_pace_to(jcal_packet_pace_t *self, uint32_t period_ns, const jcal_e
     if (at == self->at) {
         return self->us; /* the one with which it began */
     }
-    const int64_t way_ns = (int64_t)(at - self->at) * (int64_t)period_ns;
+    const int64_t way_ns = (int64_t)((at - self->at) * (uint64_t)period_ns);
     const float way_us = jcal_float_of(way_ns) * 1e-3f;
     const uint64_t nominal_us = self->us + whole_us(self->ns + (uint64_t)way_ns);
     const float drift_us = 1e-6f * envelope->drift_ppm * way_us;

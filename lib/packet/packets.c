@@ -85,6 +85,9 @@ static bool open_packet(jcal_packets_t *self, const unsigned char *slot)
 {
     jcal_packet_open_t *const open = &self->open;
     jcal_copy(&open->head, slot, sizeof open->head);
+    if ((open->head.count < 1u) || (open->head.count > self->cfg.per_packet)) {
+        return false; /* memory is damaged: push took no such packet */
+    }
     const jcal_packet_place_t place =
         jcal_order_place(&self->order, &self->cfg, &self->envelope, &open->head, &open->first);
     if (place == JCAL_ORDER_ODD) {
@@ -132,7 +135,9 @@ jcal_status_t jcal_packets_pull(jcal_packets_t *self, jcal_reading_t *out)
         return JCAL_IDLE;
     }
     jcal_packet_open_t *const open = &self->open;
-    if (!open->is_open && !open_packet(self, slot)) {
+    const bool is_sound = (open->index < open->head.count) && (open->head.count <= self->cfg.per_packet);
+    if (open->is_open ? !is_sound : !open_packet(self, slot)) {
+        open->is_open = false;
         jcal_ring_release(&self->ring);
         return JCAL_REJECTED;
     }
@@ -142,7 +147,7 @@ jcal_status_t jcal_packets_pull(jcal_packets_t *self, jcal_reading_t *out)
     out->t_us = jcal_pace_to(&self->pace, self->cfg.period_ns, &self->envelope, at);
     out->imu = convert(&self->cfg, &slot[sizeof open->head], open->index);
     open->index++;
-    if (open->index == open->head.count) {
+    if (open->index >= open->head.count) {
         open->is_open = false;
         jcal_ring_release(&self->ring);
     }

@@ -7,6 +7,7 @@
 #include "jointcal/vec3.h"
 #include "levers/products.h"
 #include "math/clear.h"
+#include "math/scalar.h"
 
 #include <stddef.h>
 
@@ -107,7 +108,8 @@ void jcal_lag_sums_fade(jcal_lag_sums_t *self, float share)
 /// The first of the seven nodes that are nearest to a lag.
 static size_t first_near(float lag)
 {
-    const int nearest = (int)(lag + (float)JCAL_LAG_SIDE + 0.5f);
+    const float within = jcal_max(jcal_min(lag, (float)JCAL_LAG_SIDE), -(float)JCAL_LAG_SIDE);
+    const int nearest = (int)(within + (float)JCAL_LAG_SIDE + 0.5f);
     const int last_first = JCAL_LAG_NODES - (int)NEAR_NODES;
     const int first = nearest - NEAR_SIDE;
     return (size_t)((first < 0) ? 0 : ((first > last_first) ? last_first : first));

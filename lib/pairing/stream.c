@@ -14,6 +14,8 @@
 #include <stddef.h>
 
 #define MICROSECONDS 1e-6f
+/// More common times than any stretch has.
+#define STRETCH_MOST 32u
 
 typedef char jcal_pairing_fits_its_budget
     [((sizeof(jcal_pairing_t) - (JCAL_PAIRING_WAITING * (sizeof(jcal_imu_t) + sizeof(uint32_t)))) <= 352u) ? 1 : -1];
@@ -46,6 +48,19 @@ static void drop_oldest(jcal_pairing_t *self)
 {
     self->first = (uint16_t)((self->first + 1u) % JCAL_PAIRING_WAITING);
     self->count = (uint16_t)(self->count - 1u);
+}
+
+/// Indices that a damaged memory may have put out of their arrays. What is left of a stretch is as long as one can be.
+static void stay_within(jcal_pairing_t *self)
+{
+    jcal_pairing_stretch_t *const stretch = &self->stretch;
+    self->first = (uint16_t)(self->first % JCAL_PAIRING_WAITING);
+    self->count = (self->count <= JCAL_PAIRING_WAITING) ? self->count : 0u;
+    self->ahead &= 1u;
+    stretch->sensor &= 1u;
+    if ((stretch->end - stretch->next) > STRETCH_MOST) {
+        stretch->next = stretch->end;
+    }
 }
 
 /// The rest of the stretch goes into the ring; what is too old for it is lost.
@@ -137,7 +152,7 @@ static void stretch_to(jcal_pairing_t *self, unsigned index, uint64_t t_us)
     stretch->next = sensor->next;
     /* A difference: the last common time before time ends may have none after it. */
     const uint64_t since_us = t_us - stretch->from_us;
-    while ((t_us - (sensor->next * self->period_us)) < since_us) {
+    for (unsigned n = 0u; (n < STRETCH_MOST) && ((t_us - (sensor->next * self->period_us)) < since_us); ++n) {
         ++sensor->next;
     }
     stretch->end = sensor->next;
@@ -160,6 +175,7 @@ jcal_status_t jcal_pairing_push(jcal_pairing_t *self, unsigned which, const jcal
     if ((self == NULL) || (reading == NULL) || (which < 1u) || (which > 2u) || (self->period_us == 0u)) {
         return JCAL_ERR_ARG;
     }
+    stay_within(self);
     finish(self);
     const unsigned index = which - 1u;
     jcal_pairing_sensor_t *const sensor = &self->sensor[index];
@@ -199,6 +215,7 @@ jcal_status_t jcal_pairing_pull(jcal_pairing_t *self, jcal_pair_t *pair)
     if ((self == NULL) || (pair == NULL) || (self->period_us == 0u)) {
         return JCAL_ERR_ARG;
     }
+    stay_within(self);
     if (!next_pair(self, pair)) {
         return JCAL_IDLE;
     }

@@ -13,7 +13,8 @@
  * update of all of them; the hash is that of the last), REPLAY_SPLIT (push and step apart), REPLAY_STACK (paint
  * the stack before every call and print how deep the deepest one went), REPLAY_LEG (hip and knee of a person, with their sensors' stages),
  * REPLAY_PACKETS (packets of four raw readings with jitter; a step is one pull), REPLAY_PAIRING (sensor 2 reads 3.7 ms later; a step is one
- * pull), REPLAY_LAG (the estimate of the lag, as REPLAY_FUNCTIONAL), REPLAY_BODY (replay_body.h; an update is a hundredth of a second). */
+ * pull), REPLAY_LAG (the estimate of the lag, as REPLAY_FUNCTIONAL), REPLAY_BODY (replay_body.h; an update is a hundredth of a second),
+ * REPLAY_PERSON (replay_person.h, in the same way; samples are packets). */
 #include "jointcal/center.h"
 #include "jointcal/chain.h"
 #include "jointcal/functional.h"
@@ -255,6 +256,8 @@ static jcal_status_t engine_get(const jcal_packets_t *self, result_t *out)
 }
 #elif defined(REPLAY_BODY)
 #include "replay_body.h"
+#elif defined(REPLAY_PERSON)
+#include "replay_person.h"
 #elif defined(REPLAY_AUTO)
 typedef jcal_pair_t sample_t;
 typedef jcal_hinge_auto_result_t result_t;
@@ -405,6 +408,11 @@ static __attribute__((noinline)) void call_engine(const sample_t *reading)
 static __attribute__((noinline)) void call_engine(const sample_t *pair)
 {
     tick_body(pair, replay_mark_update, replay_mark_end);
+}
+#elif defined(REPLAY_PERSON)
+static __attribute__((noinline)) void call_engine(const sample_t *packet)
+{
+    take_packet(packet, replay_mark_update, replay_mark_end);
 }
 #elif defined(OF_TICKS)
 /* As jcal_functional_pair_update and its like, with the marks of the parts that are asked for. */
@@ -708,7 +716,7 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
                             q.x,
                             q.y,
                             q.z};
-#elif defined(REPLAY_BODY)
+#elif defined(REPLAY_BODY) || defined(REPLAY_PERSON)
 static uint64_t hash_floats(uint64_t hash, const result_t *r)
 {
     const float floats[] = {r->axis1.x,
@@ -777,7 +785,7 @@ static uint64_t hash_floats(uint64_t hash, const result_t *r)
 #elif defined(REPLAY_TWO_AXES)
 #define head ball.head
 #define has_axes ball.has_estimate
-#elif defined(REPLAY_BODY)
+#elif defined(REPLAY_BODY) || defined(REPLAY_PERSON)
 #define has_axes lag_known
 #endif
 static uint64_t hash_result(uint64_t hash, const result_t *r)
@@ -834,6 +842,9 @@ int main(void)
         }
     }
     (void)fclose(file);
+#ifdef REPLAY_ROWS
+    write_ends();
+#endif
     printf("samples %lu hash %08lx%08lx state %lu stack %lu before_ready %lu\n", (unsigned long)samples,
            (unsigned long)(hash >> 32), (unsigned long)(hash & 0xFFFFFFFFu), (unsigned long)sizeof(replayed),
            (unsigned long)stack, (unsigned long)before_ready);

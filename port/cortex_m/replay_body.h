@@ -40,7 +40,8 @@ static jcal_status_t engine_init(void)
     body_packets.values = JCAL_PACKET_RAW;
     jcal_status_t status = jcal_chip_scale("LSM6DSV", 2000.0f, 16.0f, &body_packets.scale);
     for (unsigned s = 0; s < BODY_SENSORS; ++s) {
-        const jcal_body_sensor_spec_t spec = {NULL, &body_packets, replayed.storage[s], sizeof(replayed.storage[s]), 0u};
+        const jcal_body_sensor_spec_t spec = {NULL, &body_packets, replayed.storage[s], sizeof(replayed.storage[s]),
+                                              0u};
         body_sensors[s] = spec;
     }
     for (unsigned j = 0; (j < BODY_JOINTS) && (status == JCAL_OK); ++j) {
@@ -54,8 +55,8 @@ static jcal_status_t engine_init(void)
 #else
     jcal_body_shared_t *const shared = &replayed.shared;
 #endif
-    const jcal_body_table_t table = {body_sensors,    replayed.sensors, BODY_SENSORS, body_joints,
-                                     replayed.joints, BODY_JOINTS,      shared,       &replayed.health, NULL};
+    const jcal_body_table_t table = {body_sensors, replayed.sensors, BODY_SENSORS,     body_joints, replayed.joints,
+                                     BODY_JOINTS,  shared,           &replayed.health, NULL};
     return (status == JCAL_OK) ? jcal_body_init(&replayed.body, &table, &config) : status;
 }
 

@@ -311,8 +311,9 @@ bool message_read_sensor_state(const frame_t *frame, message_sensor_state_t *out
     out->sensor = frame_read_u8(&in);
     of->is_heard = frame_read_u8(&in) != 0;
     of->bad = frame_read_u16(&in);
-    uint32_t *const counts[8] = {&of->packets.readings, &of->packets.lost,     &of->packets.late,  &of->packets.duplicate,
-                                 &of->packets.odd,      &of->packets.restarts, &of->packets.steps, &of->packets.overruns};
+    uint32_t *const counts[8] = {&of->packets.readings,  &of->packets.lost,    &of->packets.late,
+                                 &of->packets.duplicate, &of->packets.odd,     &of->packets.restarts,
+                                 &of->packets.steps,     &of->packets.overruns};
     for (unsigned k = 0; k < 8u; k++) {
         *counts[k] = frame_read_u32(&in);
     }

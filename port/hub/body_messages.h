@@ -38,7 +38,8 @@ typedef struct {
 typedef struct {
     uint8_t number;
     uint64_t serial;
-    jcal_packet_config_t packets;  ///< Its period, counter, readings, scale and drift; the rest as by default, raw values.
+    jcal_packet_config_t
+        packets;  ///< Its period, counter, readings, scale and drift; the rest as by default, raw values.
     char name[MESSAGE_NAME_BYTES + 1u];
 } message_sensor_t;
 
@@ -96,7 +97,8 @@ typedef struct {
 typedef struct {
     uint32_t token;
     uint8_t sensor;
-    jcal_body_sensor_result_t result;  ///< Without orientation, time and what its packets have besides counters, period and drift.
+    jcal_body_sensor_result_t
+        result;  ///< Without orientation, time and what its packets have besides counters, period and drift.
 } message_sensor_state_t;
 
 typedef struct {

@@ -32,7 +32,17 @@ void hub_set_flash(hub_t *self, const jcal_flash_t *flash, bool is_deaf)
 
 void hub_time(hub_t *self, uint64_t now_us)
 {
-    self->now_us = now_us;
+    self->now_high = (uint32_t)(now_us >> 32);
+    self->now_low = (uint32_t)now_us;
+}
+
+/* An interrupt that changes the time between both halves makes no time that never was. */
+static uint64_t time_of(const hub_t *self)
+{
+    const uint32_t high = self->now_high;
+    const uint32_t low = self->now_low;
+    const uint32_t again = self->now_high;
+    return (again == high) ? (((uint64_t)high << 32) | low) : ((uint64_t)again << 32);
 }
 
 /* ---- Receiving side ---- */
@@ -52,7 +62,7 @@ static void enqueue(hub_t *self, const frame_t *frame)
     slot->type = frame->type;
     slot->size = (uint8_t)frame->size;
     slot->sequence = frame->sequence;
-    slot->now_us = self->now_us;
+    slot->now_us = time_of(self);
     memcpy(slot->payload, frame->payload, frame->size);
     __atomic_signal_fence(__ATOMIC_RELEASE); /* all of the item before it counts */
     self->queued = self->queued + 1u;
@@ -135,7 +145,7 @@ void hub_receive(hub_t *self, uint8_t byte)
 {
     frame_t frame;
     const frame_event_t event = frame_decode(&self->decoder, byte, &frame);
-    self->heard_us = self->now_us;
+    self->heard_us = self->now_low;
     if (event == FRAME_BAD) {
         self->link.counts.corrupted++;
     }
@@ -167,7 +177,7 @@ static void answer_counters(hub_t *self, uint32_t token)
     memset(&counters, 0, sizeof counters);
     counters.token = token;
     counters.link = self->link.counts;
-    counters.unknown = self->unknown;
+    counters.unknown = self->unknown + self->strange;
     counters.overrun = self->overrun;
     if (self->session == HUB_PAIR) {
         hub_pair_count(&self->of.pair, &counters);
@@ -211,6 +221,7 @@ static void begin(hub_t *self, const frame_t *frame)
     }
     hello.refused = !accepted;
     self->out.sequence = 0;
+    self->strange = 0;
     self->limit = frame->sequence + 1u + HUB_CREDIT;
     frame_writer_t payload;
     message_write_hello(&payload, &hello);
@@ -229,7 +240,7 @@ static void take_pair(hub_t *self, const frame_t *frame)
         hub_pair_estimate(&self->of.pair, &self->out, MESSAGE_EVENT_REQUESTED, token);
         answer_counters(self, token);
     } else {
-        self->unknown++; /* of the other kind of session */
+        self->strange++;
     }
     give_credit(self);
 }
@@ -237,9 +248,9 @@ static void take_pair(hub_t *self, const frame_t *frame)
 static void take_body(hub_t *self, const frame_t *frame, uint64_t now_us)
 {
     if (!hub_body_take(&self->of.body, frame, now_us)) {
-        self->unknown++;
+        self->strange++;
     }
-    if (self->of.body.phase == HUB_BODY_IDLE && !self->of.body.is_held) {
+    if (self->of.body.phase == HUB_BODY_IDLE) {
         give_credit(self);
     }
 }
@@ -277,19 +288,14 @@ static bool is_busy(const hub_t *self)
 static bool is_passing(const hub_t *self)
 {
     const hub_body_t *const body = &self->of.body;
-    return self->session == HUB_BODY && body->running && body->is_live && self->now_us > body->now_us + PASS_US;
+    return self->session == HUB_BODY && body->running && body->is_live && time_of(self) > body->now_us + PASS_US;
 }
 
-/* What is granted and has not come would be lost while the processor is deaf. */
-static bool may_keep(const hub_t *self)
+/* What is granted and has not come would be lost while the processor is deaf. Requests may go beyond. */
+static bool may_write(const hub_t *self)
 {
-    return !self->flash_is_deaf || self->link.next == self->limit || self->now_us > self->heard_us + QUIET_US;
-}
-
-/* Flash waits for silence, and it is silent. */
-static bool may_keep_now(const hub_t *self)
-{
-    return self->session == HUB_BODY && self->of.body.is_held && may_keep(self);
+    const uint32_t beyond = self->link.next - self->limit;
+    return !self->flash_is_deaf || beyond < UINT32_MAX / 2u || self->now_low - self->heard_us > QUIET_US;
 }
 
 static void work_body(hub_t *self)
@@ -298,12 +304,15 @@ static void work_body(hub_t *self)
     if (hub_body_counts(body)) {
         answer_counters(self, body->token);
         hub_body_counted(body);
-    } else if (hub_body_keeps(body)) {
-        hub_body_keep(body, may_keep(self));
+    } else if (hub_body_is_to_write(body)) {
+        if (may_write(self)) {
+            hub_body_write(body);
+        }
+        self->is_held = hub_body_is_to_write(body);
     } else {
         (void)hub_body_work(body, &self->out);
     }
-    if (body->phase == HUB_BODY_IDLE && !body->is_held) {
+    if (body->phase == HUB_BODY_IDLE) {
         give_credit(self);
     }
 }
@@ -318,8 +327,10 @@ static void refuse_version(hub_t *self)
 
 bool hub_waiting(const hub_t *self)
 {
-    return self->refused_version != 0 || is_busy(self) || self->queued != self->taken || is_passing(self) ||
-           may_keep_now(self);
+    if (is_busy(self)) {
+        return self->refused_version != 0 || !self->is_held || may_write(self);
+    }
+    return self->refused_version != 0 || self->queued != self->taken || is_passing(self);
 }
 
 bool hub_work(hub_t *self)
@@ -333,10 +344,8 @@ bool hub_work(hub_t *self)
         work_body(self);
     } else if (self->queued != self->taken) {
         work_off(self);
-    } else if (is_passing(self)) {
-        hub_body_pass(&self->of.body, self->now_us);
     } else {
-        self->of.body.phase = HUB_BODY_KEEP;
+        hub_body_pass(&self->of.body, time_of(self));
     }
     return true;
 }

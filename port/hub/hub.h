@@ -40,10 +40,10 @@ typedef struct {
     uint32_t nonce;
     uint32_t unknown;
     uint32_t overrun;
-    uint64_t now_us;  ///< The hub's clock, as far as it was told.
-    uint64_t heard_us;  ///< When the last byte came.
-    bool linked;      ///< A start or begin was received.
-    bool told;        ///< Another version was answered on this stream.
+    volatile uint32_t now_high, now_low;  ///< The hub's clock, as far as it was told, us.
+    volatile uint32_t heard_us;           ///< When the last byte came, low word.
+    bool linked;                          ///< A start or begin was received.
+    bool told;                            ///< Another version was answered on this stream.
     hub_item_t queue[HUB_QUEUE];
     volatile uint32_t queued;
     volatile uint8_t refused_version;  ///< To be answered; 0: none.
@@ -57,9 +57,11 @@ typedef struct {
     } of;
     jcal_flash_t flash;
     bool has_flash;
-    bool flash_is_deaf;   ///< The processor stands still while flash is written.
+    bool flash_is_deaf;      ///< The processor stands still while flash is written.
+    bool is_held;            ///< Flash is to be written, and all else waits until what is under way has come.
+    uint32_t strange;        ///< Frames of the other kind of session, or with wrong contents.
     uint32_t item_sequence;  ///< Of the frame that is worked at.
-    uint32_t limit;       ///< Credit last given.
+    uint32_t limit;          ///< Credit last given.
     hub_out_t out;
 } hub_t;
 
@@ -70,8 +72,8 @@ void hub_init(hub_t *self);
 /// be silent then. Before the first byte.
 void hub_set_flash(hub_t *self, const jcal_flash_t *flash, bool is_deaf);
 
-/// What the hub's clock says, us, any origin: before hub_receive, and before hub_work when nothing comes. It stamps packets whose sender leaves the arrival to the
-/// hub. A hub whose senders give arrivals needs no clock.
+/// What the hub's clock says, us, any origin: before hub_receive, and before hub_work. It stamps packets whose sender leaves the arrival to the hub,
+/// and says when the wire is silent enough for a flash that makes deaf. Of the receiving side: elsewhere with interrupts masked.
 void hub_time(hub_t *self, uint64_t now_us);
 
 /// Takes in one received byte. Bounded; may run in an interrupt that preempts the functions below.

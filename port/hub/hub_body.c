@@ -8,14 +8,6 @@
 
 /* ---- The table ---- */
 
-bool hub_body_begin(hub_body_t *self, const message_begin_t *begin, const jcal_flash_t *flash)
-{
-    memset(self, 0, sizeof *self);
-    self->begin = *begin;
-    self->flash = flash;
-    return begin->sensors <= HUB_SENSORS && begin->joints <= HUB_JOINTS;
-}
-
 static uint32_t all_of(unsigned count)
 {
     return (UINT32_C(1) << count) - 1u;
@@ -27,7 +19,7 @@ static bool refuse(hub_body_t *self, const char *what, unsigned at)
     self->table_answer.refused = true;
     self->table_answer.at = (uint8_t)at;
     (void)strncpy(self->table_answer.what, what, MESSAGE_WHAT_BYTES);
-    self->phase = HUB_BODY_REFUSE;
+    self->phase = HUB_BODY_TABLE;
     return false;
 }
 
@@ -45,7 +37,8 @@ static bool is_new(hub_body_t *self, uint32_t *has, unsigned number, unsigned co
 static uint16_t packets_of(uint8_t per_packet)
 {
     uint16_t packets = 2u;
-    while (packets < 256u && JCAL_PACKETS_STORAGE_BYTES(2u * packets, per_packet, JCAL_PACKET_RAW) <= HUB_PACKETS_BYTES) {
+    while (packets < 256u &&
+           JCAL_PACKETS_STORAGE_BYTES(2u * packets, per_packet, JCAL_PACKET_RAW) <= HUB_PACKETS_BYTES) {
         packets = (uint16_t)(2u * packets);
     }
     return packets;
@@ -92,9 +85,10 @@ static bool begin_engine(hub_body_t *self, unsigned n)
     jcal_body_joint_spec_t *const joint = &self->joints[n];
     hub_engine_t *const engine = &self->engines[n];
     const float bound = self->max_bound_rad[n];
+    const bool has_bound = !(bound == 0.0f);
     if (joint->kind == JCAL_BODY_HINGE) {
         jcal_functional_config_t config = jcal_functional_config_default();
-        config.max_bound_rad = (bound > 0.0f) ? bound : config.max_bound_rad;
+        config.max_bound_rad = has_bound ? bound : config.max_bound_rad;
         joint->engine.hinge = &engine->hinge;
         return jcal_functional_init(&engine->hinge, &config) == JCAL_OK;
     }
@@ -104,7 +98,7 @@ static bool begin_engine(hub_body_t *self, unsigned n)
         return jcal_ball_init(&engine->ball, &config) == JCAL_OK;
     }
     jcal_two_axes_config_t config = jcal_two_axes_config_default();
-    config.max_bound_rad = (bound > 0.0f) ? bound : config.max_bound_rad;
+    config.max_bound_rad = has_bound ? bound : config.max_bound_rad;
     joint->engine.two_axes = &engine->two_axes;
     return jcal_two_axes_init(&engine->two_axes, &config) == JCAL_OK;
 }
@@ -140,7 +134,28 @@ static void begin_table(hub_body_t *self)
     }
     self->running = true;
     self->table_answer.at = MESSAGE_ALL;
-    self->phase = HUB_BODY_REFUSE;
+    self->phase = HUB_BODY_TABLE;
+}
+
+/* Once, when the last of the table has come. */
+static void end_table(hub_body_t *self)
+{
+    if (!self->running && !self->has_refused && self->has_sensors == all_of(self->begin.sensors) &&
+        self->has_joints == all_of(self->begin.joints)) {
+        begin_table(self);
+    }
+}
+
+bool hub_body_begin(hub_body_t *self, const message_begin_t *begin, const jcal_flash_t *flash)
+{
+    memset(self, 0, sizeof *self);
+    self->begin = *begin;
+    self->flash = flash;
+    if (begin->sensors > HUB_SENSORS || begin->joints > HUB_JOINTS) {
+        return false;
+    }
+    end_table(self); /* an empty one is complete at once */
+    return true;
 }
 
 /* ---- Messages ---- */
@@ -187,20 +202,38 @@ static void answer_kept(hub_body_t *self, uint32_t token, unsigned joint, unsign
     self->phase = HUB_BODY_ANSWER;
 }
 
+/* What is wrong is answered at once; what is right waits until flash may be written. */
 static void put_kept(hub_body_t *self, const message_put_kept_t *put)
 {
     jcal_kept_t kept;
-    jcal_keep_writer_t writer;
-    memcpy(self->kept.bytes, put->bytes, sizeof self->kept.bytes);
-    const jcal_kept_refusal_t refusal = jcal_kept_decode(put->bytes, NULL, &kept);
-    if (refusal != JCAL_KEPT_FITS || kept.joint >= HUB_JOINTS) {
-        memset(self->kept.bytes, 0, sizeof self->kept.bytes);
-        answer_kept(self, put->token, 0, (refusal != JCAL_KEPT_FITS) ? refusal : JCAL_KEPT_OTHER_KIND);
-        return;
+    memset(self->kept.bytes, 0, sizeof self->kept.bytes);
+    jcal_kept_refusal_t refusal = jcal_kept_decode(put->bytes, NULL, &kept);
+    if (refusal == JCAL_KEPT_FITS && kept.joint >= HUB_JOINTS) {
+        refusal = JCAL_KEPT_NONE; /* there is no such place */
     }
-    const bool written = self->flash != NULL && jcal_keep_begin(&writer, self->flash, HUB_JOINTS) == JCAL_OK &&
-                         jcal_keep_put(&writer, &kept) == JCAL_OK && jcal_keep_commit(&writer) == JCAL_OK;
-    answer_kept(self, put->token, kept.joint, written ? MESSAGE_KEPT_WRITTEN : MESSAGE_KEPT_FLASH_FAILED);
+    answer_kept(self, put->token, MESSAGE_ALL, refusal);
+    if (refusal == JCAL_KEPT_FITS) {
+        memcpy(self->kept.bytes, put->bytes, sizeof self->kept.bytes);
+        self->kept.joint = kept.joint;
+        self->writes_put = true;
+        self->phase = HUB_BODY_WRITE;
+    }
+}
+
+/* The answer has the record with the number that this write gave it. */
+static void write_put(hub_body_t *self)
+{
+    jcal_kept_t kept;
+    jcal_keep_writer_t writer;
+    const bool written = self->flash != NULL && jcal_kept_decode(self->kept.bytes, NULL, &kept) == JCAL_KEPT_FITS &&
+                         jcal_keep_begin(&writer, self->flash, HUB_JOINTS) == JCAL_OK &&
+                         jcal_keep_put(&writer, &kept) == JCAL_OK && jcal_keep_commit(&writer) == JCAL_OK &&
+                         jcal_keep_read(self->flash, kept.joint, &kept) == JCAL_KEPT_FITS &&
+                         jcal_kept_encode(&kept, self->kept.bytes) == JCAL_OK;
+    if (!written) {
+        memset(self->kept.bytes, 0, sizeof self->kept.bytes);
+    }
+    answer_kept(self, self->kept.token, self->kept.joint, written ? MESSAGE_KEPT_WRITTEN : MESSAGE_KEPT_FLASH_FAILED);
 }
 
 static void get_kept(hub_body_t *self, const message_ask_kept_t *ask)
@@ -211,7 +244,8 @@ static void get_kept(hub_body_t *self, const message_ask_kept_t *ask)
         answer_kept(self, ask->token, ask->joint, MESSAGE_KEPT_FLASH_FAILED);
         return;
     }
-    jcal_kept_refusal_t refusal = (ask->joint < HUB_JOINTS) ? jcal_keep_read(self->flash, ask->joint, &kept) : JCAL_KEPT_NONE;
+    jcal_kept_refusal_t refusal =
+        (ask->joint < HUB_JOINTS) ? jcal_keep_read(self->flash, ask->joint, &kept) : JCAL_KEPT_NONE;
     if (refusal == JCAL_KEPT_FITS && jcal_kept_encode(&kept, self->kept.bytes) != JCAL_OK) {
         refusal = JCAL_KEPT_DAMAGED;
     }
@@ -220,16 +254,29 @@ static void get_kept(hub_body_t *self, const message_ask_kept_t *ask)
 
 static void forget(hub_body_t *self, const message_ask_kept_t *ask)
 {
-    jcal_keep_writer_t writer;
     memset(self->kept.bytes, 0, sizeof self->kept.bytes);
+    if (ask->joint < HUB_JOINTS || ask->joint == MESSAGE_ALL) {
+        self->kept.token = ask->token;
+        self->kept.joint = ask->joint;
+        self->writes_put = false;
+        self->phase = HUB_BODY_WRITE;
+    } else {
+        answer_kept(self, ask->token, ask->joint, JCAL_KEPT_NONE);
+    }
+}
+
+static void write_without(hub_body_t *self)
+{
+    jcal_keep_writer_t writer;
+    const uint8_t joint = self->kept.joint;
     bool written = self->flash != NULL && jcal_keep_begin(&writer, self->flash, HUB_JOINTS) == JCAL_OK;
     for (unsigned n = 0; written && n < HUB_JOINTS; n++) {
-        if (ask->joint == MESSAGE_ALL || ask->joint == n) {
+        if (joint == MESSAGE_ALL || joint == n) {
             written = jcal_keep_drop(&writer, n) == JCAL_OK;
         }
     }
     written = written && jcal_keep_commit(&writer) == JCAL_OK;
-    answer_kept(self, ask->token, ask->joint, written ? MESSAGE_KEPT_FORGOTTEN : MESSAGE_KEPT_FLASH_FAILED);
+    answer_kept(self, self->kept.token, joint, written ? MESSAGE_KEPT_FORGOTTEN : MESSAGE_KEPT_FLASH_FAILED);
 }
 
 static bool take_table(hub_body_t *self, const frame_t *frame)
@@ -249,10 +296,7 @@ static bool take_table(hub_body_t *self, const frame_t *frame)
     } else {
         return false;
     }
-    if (!self->running && !self->has_refused && self->has_sensors == all_of(self->begin.sensors) &&
-        self->has_joints == all_of(self->begin.joints)) {
-        begin_table(self);
-    }
+    end_table(self);
     return true;
 }
 
@@ -282,6 +326,7 @@ bool hub_body_take(hub_body_t *self, const frame_t *frame, uint64_t now_us)
     } else if (frame->type == FRAME_TIME && message_read_time(frame, &time_us)) {
         hub_body_pass(self, time_us);
     } else if (frame->type == FRAME_REQUEST && message_read_number(frame, &self->token)) {
+        self->is_asked = true;
         self->phase = self->running ? HUB_BODY_STATES : HUB_BODY_COUNTERS;
         self->at = 0;
     } else if (frame->type == FRAME_SLEEP && message_read_sleep(frame, &sleep)) {
@@ -304,19 +349,18 @@ bool hub_body_counts(const hub_body_t *self)
 /* After the answer to a request there is nothing else; after states that were due come angles. */
 void hub_body_counted(hub_body_t *self)
 {
-    self->phase = (self->token != 0) ? HUB_BODY_IDLE : HUB_BODY_ANGLES;
+    self->phase = self->is_asked ? HUB_BODY_IDLE : HUB_BODY_ANGLES;
+    self->is_asked = false;
     self->token = 0;
     self->at = 0;
 }
 
-bool hub_body_keeps(const hub_body_t *self)
-{
-    return self->phase == HUB_BODY_KEEP;
-}
-
-/* True once per period. */
+/* True once per period. A clock that went back begins a period anew. */
 static bool is_due(uint64_t now_us, uint64_t every_us, uint64_t *next_us)
 {
+    if (*next_us > now_us && *next_us - now_us > every_us) {
+        *next_us = now_us + every_us;
+    }
     if (every_us == 0 || now_us < *next_us) {
         return false;
     }
@@ -450,16 +494,24 @@ static void send_angles(hub_body_t *self, hub_out_t *out)
     }
 }
 
-void hub_body_keep(hub_body_t *self, bool may)
+bool hub_body_is_to_write(hub_body_t *self)
 {
-    const bool is_due = jcal_body_keep_due(&self->body);
-    self->is_held = is_due && !may;
-    if (is_due && may) {
+    if (self->phase == HUB_BODY_KEEP && !jcal_body_keep_due(&self->body)) {
+        self->phase = HUB_BODY_IDLE;
+    }
+    return self->phase == HUB_BODY_KEEP || self->phase == HUB_BODY_WRITE;
+}
+
+void hub_body_write(hub_body_t *self)
+{
+    if (self->phase == HUB_BODY_KEEP) {
         (void)jcal_body_keep(&self->body);
         self->phase = HUB_BODY_EVENTS; /* that it was written */
-        return;
+    } else if (self->writes_put) {
+        write_put(self);
+    } else {
+        write_without(self);
     }
-    self->phase = HUB_BODY_IDLE;
 }
 
 static void send_table(hub_body_t *self, hub_out_t *out)
@@ -481,7 +533,7 @@ static void send_kept(hub_body_t *self, hub_out_t *out)
 bool hub_body_work(hub_body_t *self, hub_out_t *out)
 {
     switch (self->phase) {
-    case HUB_BODY_REFUSE:
+    case HUB_BODY_TABLE:
         send_table(self, out);
         return true;
     case HUB_BODY_STEP:
@@ -513,6 +565,7 @@ bool hub_body_work(hub_body_t *self, hub_out_t *out)
     case HUB_BODY_IDLE:
     case HUB_BODY_COUNTERS:
     case HUB_BODY_KEEP:
+    case HUB_BODY_WRITE:
     default:
         return false;
     }

@@ -29,8 +29,8 @@ typedef union {
 /// Private: what is next to be done for the message that was taken.
 typedef enum {
     HUB_BODY_IDLE = 0,
-    HUB_BODY_REFUSE,  ///< The table is answered.
-    HUB_BODY_STEP,    ///< The body works.
+    HUB_BODY_TABLE,  ///< The table is answered.
+    HUB_BODY_STEP,   ///< The body works.
     HUB_BODY_EVENTS,
     HUB_BODY_STATES,  ///< The body, then each sensor, each joint, the advice; counters are the hub's.
     HUB_BODY_SENSORS,
@@ -38,16 +38,17 @@ typedef enum {
     HUB_BODY_ADVICE,
     HUB_BODY_COUNTERS,
     HUB_BODY_ANGLES,
-    HUB_BODY_KEEP,
+    HUB_BODY_KEEP,   ///< Flash is written if something is worth it.
+    HUB_BODY_WRITE,  ///< Flash is written as the sender asked.
     HUB_BODY_ANSWER  ///< A kept record is answered.
 } hub_body_phase_t;
 
 /// All members are private.
 typedef struct {
     message_begin_t begin;
-    bool running;                        ///< The table is complete and accepted.
-    bool has_refused;                    ///< It is not.
-    uint32_t has_sensors, has_joints;    ///< Bit n: number n of the table has come.
+    bool running;                      ///< The table is complete and accepted.
+    bool has_refused;                  ///< It is not.
+    uint32_t has_sensors, has_joints;  ///< Bit n: number n of the table has come.
     message_table_t table_answer;
     char names[HUB_SENSORS + HUB_JOINTS][MESSAGE_NAME_BYTES + 1u];
     jcal_packet_config_t packets[HUB_SENSORS];
@@ -66,10 +67,11 @@ typedef struct {
     uint64_t next_us;           ///< When states are due.
     uint64_t next_angles_us;    ///< When angles are due, of the body's time.
     bool has_time, has_angles_time;
-    bool is_live;  ///< The hub's own clock stamps packets.
-    bool is_held;  ///< Flash is to be written, but the sender may still be talking.
+    bool is_live;     ///< The hub's own clock stamps packets.
+    bool is_asked;    ///< States are answered to a request, whose token follows.
+    bool writes_put;  ///< The sender asked for a record, else for none.
     uint32_t pushed;  ///< Packets that were pushed.
-    uint32_t token;   ///< Of the request that is answered.
+    uint32_t token;
     hub_body_phase_t phase;
     uint8_t at;  ///< Sensor or joint that is next.
     message_kept_t kept;
@@ -88,9 +90,9 @@ void hub_body_pass(hub_body_t *self, uint64_t now_us);
 bool hub_body_counts(const hub_body_t *self);
 void hub_body_counted(hub_body_t *self);
 
-/// True if flash is to be written now if something is worth it: the hub says whether it may, by hub_body_keep.
-bool hub_body_keeps(const hub_body_t *self);
-void hub_body_keep(hub_body_t *self, bool may);
+/// True if flash is to be written before anything else is done: the hub waits until it may, then calls hub_body_write.
+bool hub_body_is_to_write(hub_body_t *self);
+void hub_body_write(hub_body_t *self);
 
 /// One piece of work, at most one frame of answer. False: idle.
 bool hub_body_work(hub_body_t *self, hub_out_t *out);

@@ -4,7 +4,7 @@
 #
 # RUNS executions of the reader (default 20000), of one sensor, its health, of packets and of kept calibrations, a tenth as many of pairing, which estimates lags, and a hundredth as many of push, joints, auto and two_axes, each of which
 # pushes tens of samples into the engines of the hinge, of all other joints, or of a hinge of either kind and the functional joint alone, or of a
-# joint with two axes; of the hub's frames as many as of the reader, and then `fuzz.sh frames` with ten
+# joint with two axes; corruptions of the memory of running estimators, a hundredth as many of each (corrupt.c); of the hub's frames as many as of the reader, and then `fuzz.sh frames` with ten
 # times as many frames. Inputs that reach new code are kept in build/fuzz; host_tests/fuzz/corpus is where every run starts.
 # `fuzz.sh merge` copies what is worth keeping there.
 set -euo pipefail
@@ -39,12 +39,15 @@ fi
 runs=${1:-20000}
 shift || true
 targets=("$@")
-((${#targets[@]} > 0)) || targets=(reader push joints auto two_axes sensor health packets pairing keep frame)
+((${#targets[@]} > 0)) || targets=(reader push joints auto two_axes sensor health packets pairing keep corrupt frame)
 out=build/fuzz
 mkdir -p "$out"
 
 flags=(-std=c99 -g -O1 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -Wall -Wextra -Werror -Iinclude -Ilib -Itools/cli -Iport/hub
-    -fsanitize=fuzzer,address,undefined,float-cast-overflow -fno-sanitize-recover=all)
+    -fsanitize=fuzzer,address,undefined,float-cast-overflow -fno-sanitize-recover=all
+    -fsanitize-recover=bool)
+# Corrupted memory has bools that are neither; everywhere else they are an error as any other.
+export UBSAN_OPTIONS=halt_on_error=1
 mapfile -t library < <(find lib -name '*.c' | sort)
 hub=(port/hub/frame.c port/hub/messages.c port/hub/hub.c)
 reader=(tools/cli/input/{check,check_frames,check_health,check_sensor,check_time,csv,file_kind,header_help,kept_rows,number,recording}.c)
@@ -70,6 +73,16 @@ for target in "${targets[@]}"; do
     for source in "${sources[@]}"; do
         linked+=("$(object_of "$source")")
     done
+    if [[ $target == corrupt ]]; then
+        count=${CORRUPTIONS:-$((runs / 100))}
+        clang-14 "${flags[@]/fuzzer,/fuzzer-no-link,}" -D_GNU_SOURCE -Ihost_tests host_tests/fuzz/corrupt.c "${linked[@]}" -o "$out/corrupt" -lm
+        echo "corrupt: $count of each (log: $out/corrupt.log)"
+        if ! UBSAN_OPTIONS=halt_on_error=0 "$out/corrupt" "$count" > "$out/corrupt.txt" 2> "$out/corrupt.log"; then
+            grep -E 'BROKEN|ERROR|runtime error' "$out/corrupt.log" | tail -n 20 >&2
+            exit 1
+        fi
+        continue
+    fi
     clang-14 "${flags[@]}" "host_tests/fuzz/fuzz_$target.c" "${linked[@]}" -o "$out/fuzz_$target" -lm
     corpus=host_tests/fuzz/corpus/$target
     mkdir -p "$out/$target"
@@ -99,4 +112,4 @@ for target in "${targets[@]}"; do
     sed -n 's/^stat::number_of_executed_units: */  executed: /p; s/^stat::peak_rss_mb: */  peak memory, MB: /p' \
         "$out/$target.log"
 done
-[[ $runs == merge ]] || frames "$((runs * 10))"
+[[ $runs == merge || $runs == 0 ]] || frames "$((runs * 10))"

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write the bundled demo recordings tools/demo/{hinge,knee,elbow,two_dof,chain}_demo.csv, thigh_demo.csv and shank_demo.csv, and their
+"""Write the bundled demo recordings tools/demo/{hinge,knee,elbow,two_dof,chain,leg}_demo.csv, thigh_demo.csv and shank_demo.csv, and their
 truths, .json.
 
     python3 tools/maintain/make_demo.py            write all
@@ -14,6 +14,7 @@ Two axes: rest, motion about one axis only, then about both: 40 s at 50 Hz.
 Gyroscope bias lets the heading of orientations computed from it drift.
 Hip and knee: three sensors, motion of type 2 of SAL15: 30 s at 50 Hz, with a
 third of the papers' noise, which is what sensors of today have.
+Leg, for the hub: pelvis, thigh and shank, skin under all three, 90 s at 25 Hz, as long as a hub takes until it keeps what it found.
 """
 
 import argparse
@@ -29,6 +30,7 @@ sys.path.insert(0, str(TOOLS / "python"))
 
 from jointcal_tools.recordings import without_orientations, write_csv  # noqa: E402
 from jointcal_tools.simulate import HingeSpec, simulate_hinge  # noqa: E402
+from jointcal_tools.simulate_body import RATE_HZ, simulate_body  # noqa: E402
 from jointcal_tools.simulate_chain import ChainSpec, simulate_chain  # noqa: E402
 from jointcal_tools.simulate_people import PersonSpec, simulate_person  # noqa: E402
 from jointcal_tools.simulate_two_dof import TwoDofSpec, simulate_two_dof  # noqa: E402
@@ -44,6 +46,7 @@ TWO_DOF = TwoDofSpec(motions=(("rest", 4.0), ("hinge", 6.0), ("free", 28.0)),
 CHAIN = ChainSpec(type=2, seconds=30.0, rate_hz=50.0, seed=2015, noise_scale=0.3, acc_bias=0.1, gyr_bias_deg_s=0.1)
 TWO_FILES = PersonSpec((("stand", 3.0), ("walk", 20.0), ("random", 20.0)), rate_hz=100.0, seed=2027)
 CLOCKS = (Clock(rate_hz=50.0), Clock(rate_hz=40.0, begin_s=0.16, offset_s=3600.0, lag_s=0.12, drift_ppm=200.0))
+LEG_S, LEG_STEP, LEG_SEED = 90.0, 4, 1  # every fourth of its rows, so that the file is small
 DIGITS = 7  # few enough that no platform's last bit shows
 
 
@@ -60,6 +63,18 @@ def rounded(value):
 
 def write_truth(path: Path, truth: dict) -> None:
     path.write_text(json.dumps(rounded(truth), indent=1) + "\n", newline="\n")
+
+
+def write_leg(folder: Path) -> None:
+    leg = simulate_body(LEG_S, LEG_SEED, (-1, 0, 1))
+    columns = [f"{quantity}{sensor}_{axis}" for sensor in (1, 2, 3) for quantity in ("gyr", "acc") for axis in "xyz"]
+    digits = [3 if name.startswith("gyr") else 2 for name in columns]
+    rows = [",".join([f"{k * LEG_STEP / RATE_HZ:.2f}", *(f"{value:.{digit}f}" for value, digit in zip(row, digits, strict=True))])
+            for k, row in enumerate(np.hstack(leg.values)[::LEG_STEP])]
+    (folder / "leg_demo.csv").write_text("\n".join([",".join(["t_s", *columns]), *rows]) + "\n")
+    hip, knee = leg.axes
+    write_truth(folder / "leg_demo.json", {"hip_axis_pelvis": hip[0].tolist(), "hip_axis_thigh": hip[1].tolist(), "knee_axis_thigh": knee[0].tolist(),
+                                           "knee_axis_shank": knee[1].tolist(), "source": "simulated (tools/maintain/make_demo.py)"})
 
 
 def write_demo(folder: Path) -> None:
@@ -86,6 +101,7 @@ def write_demo(folder: Path) -> None:
     chain = simulate_chain(CHAIN)
     write_csv(folder / "chain_demo.csv", chain.first_two(), digits=DIGITS, extra=chain.third_columns())
     write_truth(folder / "chain_demo.json", {**chain.truth(), "source": "simulated (tools/maintain/make_demo.py)"})
+    write_leg(folder)
 
 
 def main() -> int:

@@ -56,7 +56,8 @@ class Worker:
         self.call("cmake", *generator, "-S", folder, "-B", self.build, "-DCMAKE_BUILD_TYPE=Release",
                   "-DJOINTCAL_BUILD_PROGRAM=OFF", "-DJOINTCAL_INSTALL=OFF", "-DJOINTCAL_WERROR=OFF", check=True)
         self.targets = sorted(f"test_{path.parent.name}_{path.stem[len('test_'):]}"
-                              for path in (folder / "host_tests" / "unit").glob("*/test_*.c"))
+                              for path in (folder / "host_tests").glob("unit/*/test_*.c"))
+        self.targets += sorted(f"test_boards_{path.stem[len('test_'):]}" for path in (folder / "host_tests").glob("boards/test_*.c"))
 
     def call(self, *command, check: bool = False) -> subprocess.CompletedProcess:
         return subprocess.run([str(word) for word in command], capture_output=True, text=True, check=check)

@@ -96,6 +96,8 @@ H_RAILS = "lib/health/rails.c"
 H_SCALE = "lib/health/scale.c"
 H_VALUES = "lib/health/values.c"
 H_VERDICT = "lib/health/verdict.c"
+B_NRF = "port/boards/nrf52840/flash.c"
+B_STM = "port/boards/stm32f405/flash.c"
 K_BYTES = "lib/keep/bytes.h"
 K_RECORD = "lib/keep/record.c"
 K_SCHEDULE = "lib/keep/schedule.c"
@@ -939,7 +941,7 @@ MUTATIONS = [
     (P_ENVELOPE, "#define LOW_US 20000.0f", "#define LOW_US 200000.0f", "a radio that became faster"),
     (P_ENVELOPE, "self->open_us = jcal_max(above_us, 0.0f);", "", "lowest of the open block"),
     (P_ORDER, "#define ODD_RUN 3u", "#define ODD_RUN 2u", "odd packets that are believed"),
-    (P_ORDER, "periods -= (int32_t)", "periods += (int32_t)", "drift over a long silence"),
+    (P_ORDER, "periods -= jcal_within(drift", "periods += jcal_within(drift", "drift over a long silence"),
     (P_ORDER, "head->counter + (head->count - 1u)", "head->counter", "number of the last reading"),
     (P_ORDER, "(low ^ top) - top", "low", "a counter behind the clock"),
     (P_ORDER, "self->seen |= bit;", "", "a late reading that comes twice"),
@@ -977,7 +979,7 @@ MUTATIONS = [
     (TICKS, "(tick->epoch > 1u) && ", "", "ticks after the first reading are not left out"),
     (TICKS, "return is_cold(tick1) || is_cold(tick2);", "return is_cold(tick1);", "filters of sensor 2"),
     (TICKS, "return is_cold(tick1) || is_cold(tick2);", "return is_cold(tick2);", "filters of sensor 1"),
-    (G_STREAM, "while ((t_us - (sensor->next * self->period_us)) < since_us)", "while ((t_us - 1u - (sensor->next * self->period_us)) < since_us)", "a common time at the end of a stretch"),
+    (G_STREAM, "&& ((t_us - (sensor->next * self->period_us)) < since_us); ++n)", "&& ((t_us - 1u - (sensor->next * self->period_us)) < since_us); ++n)", "a common time at the end of a stretch"),
     (G_STREAM, "stretch->next = (self->begin < stretch->end) ? self->begin : stretch->end;", "", "the hole"),
     (G_STREAM, "(t_us > sensor->t_us) && ", "", "a stretch over the end of time"),
     (G_STREAM, "<= self->cfg.gap_s);", "<= (2.0f * self->cfg.gap_s));", "gaps are not filled"),
@@ -1135,6 +1137,23 @@ MUTATIONS = [
     (O_TREE, "if (magnitude(state->off_us) > ANEW_US) {", "if (magnitude(lag_us) > ANEW_US) {", "small lags add up"),
     (O_TRUST, "} else if (!trust->lag_known && (head->status == JCAL_READY)) {", "} else if (false) {", "ready without a lag"),
     (O_TRUST, "if ((trust->bad1 != 0u) || (trust->bad2 != 0u)) {", "if (trust->bad1 != 0u) {", "a bad distal sensor"),
+    (B_NRF, "!configure(CONFIG_ERASE)", "!configure(CONFIG_READ)", "erase is enabled first"),
+    (B_NRF, "!configure(CONFIG_WRITE)", "!configure(CONFIG_READ)", "writing is enabled first"),
+    (B_NRF, "    return configure(CONFIG_READ);", "    return wait();", "the flash is closed after an erase"),
+    (B_NRF, "return configure(CONFIG_READ) && ok;", "return ok;", "the flash is closed after a write"),
+    (B_NRF, "        ok = wait();", "        ok = true;", "a word at a time"),
+    (B_NRF, "    if (!wait()) {", "    if (false && !wait()) {", "a controller that is busy is not configured"),
+    (B_NRF, "flash_address(slot, 0u)", "flash_address(1u - slot, 0u)", "which page"),
+    (B_STM, "access_write(FLASH_KEYR, KEY1);", "(void)KEY1;", "both keys"),
+    (B_STM, "return (access_read(FLASH_CR) & CR_LOCK) == 0u;", "return true;", "a controller that stays locked"),
+    (B_STM, "    access_write(FLASH_SR, SR_ERRORS);", "    (void)SR_ERRORS;", "errors from before"),
+    (B_STM, "is_idle() && ((access_read(FLASH_SR) & SR_ERRORS) == 0u)", "is_idle()", "errors are failures"),
+    (B_STM, "CR_BY_WORDS | CR_PG)", "CR_PG)", "by words"),
+    (B_STM, "CR_BY_WORDS | CR_SER |", "CR_BY_WORDS |", "a sector's erase"),
+    (B_STM, "((FIRST_SECTOR + slot) << CR_SECTOR_SHIFT)", "(slot << CR_SECTOR_SHIFT)", "not the sector of the vectors"),
+    (B_STM, "access_write(FLASH_CR, access_read(FLASH_CR) | CR_STRT);", "(void)CR_STRT;", "an erase is started"),
+    (B_STM, "    access_write(FLASH_CR, CR_LOCK);", "", "the flash is closed"),
+    (B_STM, "        ok = wait();", "        ok = true;", "a word at a time, and its errors"),
     (DECAY, "p = p * (2.0f - p);\n    return", "return", "doublings of the exponential"),
 ]
 

@@ -44,8 +44,8 @@ static bool begin(whole_t *w, const jcal_batch_body_in_t *in)
             return false;
         }
     }
-    const jcal_body_table_t table = {w->sensors,      w->sensor_states, sensors, w->joints,
-                                     w->joint_states, joints,           &w->shared, &w->health, NULL};
+    const jcal_body_table_t table = {w->sensors, w->sensor_states, sensors,    w->joints, w->joint_states,
+                                     joints,     &w->shared,       &w->health, NULL};
     return jcal_body_init(&w->body, &table, &config) == JCAL_OK;
 }
 

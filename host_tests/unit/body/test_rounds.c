@@ -86,7 +86,7 @@ static void all_sensors_tell_of_the_same_times(void)
         TEST_ASSERT_EQUAL_UINT32(0u, sensor.late + sensor.rejected);
         TEST_ASSERT_TRUE(sensor.missed <= 5u); /* until the first time at which ticks fall on those of others */
         TEST_ASSERT_TRUE(sensor.is_heard);
-        TEST_ASSERT_EQUAL_UINT64(body_sensor(&f, 0u).t_us, sensor.t_us);
+        TEST_ASSERT_TRUE((body_sensor(&f, 0u).t_us) == (sensor.t_us));
         TEST_ASSERT_TRUE((sensor.t_us + BODY_PERIOD_US) >= hub_time(299u));
         TEST_ASSERT_TRUE(sensor.t_us <= hub_time(299u));
     }
@@ -138,8 +138,8 @@ static void a_burst_beyond_that_is_missed_and_counted(void)
     TEST_ASSERT_EQUAL_UINT(0u, told[JCAL_BODY_SENSOR_LOST]);
     TEST_ASSERT_EQUAL_UINT32(2u, jcal_sensor_tick(&f.sensor_states[2].stage)->epoch);
     TEST_ASSERT_EQUAL_UINT32(1u, jcal_sensor_tick(&f.sensor_states[1].stage)->epoch);
-    TEST_ASSERT_EQUAL_UINT64(jcal_sensor_tick(&f.sensor_states[1].stage)->t_us,
-                             jcal_sensor_tick(&f.sensor_states[2].stage)->t_us);
+    TEST_ASSERT_TRUE(jcal_sensor_tick(&f.sensor_states[1].stage)->t_us ==
+                     jcal_sensor_tick(&f.sensor_states[2].stage)->t_us);
     /* The filters of sensor 2 have seen less of the past: its joint leaves out its ticks for three seconds. */
     const uint32_t before0 = body_joint(&f, 0u).head.samples;
     const uint32_t before1 = body_joint(&f, 1u).head.samples;

@@ -34,9 +34,9 @@ void start_fault(void);
 /// End of the stack, from the linker script.
 extern uint32_t start_stack_top;
 
-/// The first 16 entries of a vector table; those that are not named below are faults.
-#define SYSTEM_VECTOR_TABLE                                                                                            \
+/// The first 16 entries of a vector table; the last is of SysTick. Those that are not named are faults.
+#define SYSTEM_VECTOR_TABLE(systick)                                                                                   \
     (vector_t)(uintptr_t) & start_stack_top, start_reset, start_fault, start_fault, start_fault, start_fault,          \
-        start_fault, 0, 0, 0, 0, start_fault, start_fault, 0, start_fault, start_fault
+        start_fault, 0, 0, 0, 0, start_fault, start_fault, 0, start_fault, systick
 
 #endif

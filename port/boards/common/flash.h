@@ -5,11 +5,16 @@
 #ifndef JCAL_BOARDS_FLASH_H
 #define JCAL_BOARDS_FLASH_H
 
+#include "access.h"
 #include "jointcal/keep_flash.h"
 
+#ifndef BOARDS_SIMULATED
 /// Both slots, from the linker script: `keep_slot_bytes` is a symbol whose address is the size of one.
 extern uint8_t keep_slots[];
 extern uint8_t keep_slot_bytes[];
+#define FLASH_SLOTS ((uintptr_t)keep_slots)
+#define FLASH_SLOT_BYTES ((uint32_t)(uintptr_t)keep_slot_bytes)
+#endif
 
 /// The port of this board.
 jcal_flash_t board_flash(void);
@@ -17,14 +22,14 @@ jcal_flash_t board_flash(void);
 /// Where a byte of a slot is.
 static inline uintptr_t flash_address(unsigned slot, uint32_t offset)
 {
-    return (uintptr_t)keep_slots + ((uintptr_t)slot * (uintptr_t)keep_slot_bytes) + offset;
+    return FLASH_SLOTS + ((uintptr_t)slot * FLASH_SLOT_BYTES) + offset;
 }
 
 /// True if n bytes from `offset` on lie in a slot, and are whole words.
 static inline bool flash_has(unsigned slot, uint32_t offset, uint32_t n)
 {
-    const uint32_t size = (uint32_t)(uintptr_t)keep_slot_bytes;
-    return (slot < 2u) && (offset <= size) && (n <= (size - offset)) && ((offset % 4u) == 0u) && ((n % 4u) == 0u);
+    return (slot < 2u) && (offset <= FLASH_SLOT_BYTES) && (n <= (FLASH_SLOT_BYTES - offset)) && ((offset % 4u) == 0u) &&
+           ((n % 4u) == 0u);
 }
 
 /// Four bytes as the word that a little-endian processor reads there.
@@ -37,12 +42,11 @@ static inline uint32_t flash_word(const uint8_t *bytes)
 static inline bool flash_read(void *context, unsigned slot, uint32_t offset, uint8_t *bytes, uint32_t n)
 {
     (void)context;
-    const volatile uint8_t *const from = (const volatile uint8_t *)flash_address(slot, offset);
     if (!flash_has(slot, offset, n)) {
         return false;
     }
     for (uint32_t i = 0u; i < n; i++) {
-        bytes[i] = from[i];
+        bytes[i] = access_read_byte(flash_address(slot, offset + i));
     }
     return true;
 }

@@ -1,13 +1,22 @@
 /* SPDX-License-Identifier: MIT */
 /* The hub on a board: receives in the UART's interrupt, works and sends in the main loop, sleeps in between. */
 #include "board.h"
+#include "flash.h"
 #include "hub.h"
 
 static hub_t hub;
 
 void board_received(uint8_t byte)
 {
+    hub_time(&hub, board_now_us());
     hub_receive(&hub, byte);
+}
+
+static void tell_time(void)
+{
+    __asm volatile("cpsid i" ::: "memory");
+    hub_time(&hub, board_now_us());
+    __asm volatile("cpsie i" ::: "memory");
 }
 
 static void send_what_fits(void)
@@ -37,9 +46,12 @@ static void sleep_if_idle(void)
 
 int main(void)
 {
+    const jcal_flash_t flash = board_flash();
     hub_init(&hub);
+    hub_set_flash(&hub, &flash, board_flash_is_deaf());
     board_init();
     for (;;) {
+        tell_time();
         const bool worked = hub_work(&hub);
         send_what_fits();
         if (!worked) {

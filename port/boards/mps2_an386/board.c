@@ -2,6 +2,7 @@
 /* Arm MPS2, AN386: UART 0 of the CMSDK [DDI0479, Cortex-M System Design Kit], 25 MHz. Runs in QEMU as mps2-an386. */
 #include "board.h"
 #include "cortex_m.h"
+#include "systick.h"
 
 #define UART 0x40004000u
 #define UART_DATA REGISTER(UART + 0x00u)
@@ -23,6 +24,13 @@ static void received(void)
     }
 }
 
+static volatile uint64_t periods;
+
+static void ticked(void)
+{
+    periods++;
+}
+
 /* Only ends a sleep. */
 static void sent(void)
 {
@@ -31,14 +39,25 @@ static void sent(void)
 
 extern const vector_t board_vectors[SYSTEM_VECTORS + 2u];
 __attribute__((section(".vectors"), used))
-const vector_t board_vectors[SYSTEM_VECTORS + 2u] = {SYSTEM_VECTOR_TABLE, received, sent};
+const vector_t board_vectors[SYSTEM_VECTORS + 2u] = {SYSTEM_VECTOR_TABLE(ticked), received, sent};
 
 void board_init(void)
 {
+    systick_start(CLOCK_HZ);
     UART_BAUDDIV = CLOCK_HZ / 115200u;
     UART_CTRL = 0xFu;
     enable_interrupt(RX_INTERRUPT);
     enable_interrupt(TX_INTERRUPT);
+}
+
+uint64_t board_now_us(void)
+{
+    return systick_now_us(CLOCK_HZ, periods);
+}
+
+bool board_flash_is_deaf(void)
+{
+    return false;
 }
 
 bool board_can_send(void)

@@ -8,9 +8,8 @@ static bool erase(void *context, unsigned slot)
     if (slot >= 2u) {
         return false;
     }
-    volatile uint8_t *const bytes = (volatile uint8_t *)flash_address(slot, 0u);
-    for (uint32_t i = 0u; i < (uint32_t)(uintptr_t)keep_slot_bytes; i++) {
-        bytes[i] = 0xFFu;
+    for (uint32_t i = 0u; i < FLASH_SLOT_BYTES; i++) {
+        access_write_byte(flash_address(slot, i), 0xFFu);
     }
     return true;
 }
@@ -21,15 +20,15 @@ static bool program(void *context, unsigned slot, uint32_t offset, const uint8_t
     if (!flash_has(slot, offset, n)) {
         return false;
     }
-    volatile uint8_t *const to = (volatile uint8_t *)flash_address(slot, offset);
     for (uint32_t i = 0u; i < n; i++) {
-        to[i] = (uint8_t)(to[i] & bytes[i]); /* bits are cleared only, as in flash */
+        const uintptr_t to = flash_address(slot, offset + i);
+        access_write_byte(to, (uint8_t)(access_read_byte(to) & bytes[i])); /* bits are cleared only, as in flash */
     }
     return true;
 }
 
 jcal_flash_t board_flash(void)
 {
-    const jcal_flash_t flash = {0, (uint32_t)(uintptr_t)keep_slot_bytes, 1u, erase, program, flash_read};
+    const jcal_flash_t flash = {0, FLASH_SLOT_BYTES, 1u, erase, program, flash_read};
     return flash;
 }

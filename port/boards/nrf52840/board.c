@@ -60,10 +60,58 @@ static void uart(void)
     }
 }
 
-#define INTERRUPTS (UART_INTERRUPT + 1u)
+/* Timer 0 counts microseconds in 32 bits; SysTick stands still while the processor sleeps. Compare register 0 ends a sleep every 10 ms,
+ * register 1 takes the time. */
+#define TIMER 0x40008000u
+#define TIMER_START REGISTER(TIMER + 0x000u)
+#define TIMER_CAPTURE1 REGISTER(TIMER + 0x044u)
+#define TIMER_COMPARE0 REGISTER(TIMER + 0x140u)
+#define TIMER_INTENSET REGISTER(TIMER + 0x304u)  /* bit 16: COMPARE0 */
+#define TIMER_BITMODE REGISTER(TIMER + 0x508u)   /* 3: 32 bits */
+#define TIMER_PRESCALER REGISTER(TIMER + 0x510u) /* 16 MHz by 2^n */
+#define TIMER_CC0 REGISTER(TIMER + 0x540u)
+#define TIMER_CC1 REGISTER(TIMER + 0x544u)
+#define TIMER_INTERRUPT 8u
+#define WAKE_US 10000u
+
+/* Time last taken; the timer wraps once in 71 minutes and is looked at every 10 ms. */
+static volatile uint64_t time_us;
+
+static void timer(void)
+{
+    TIMER_COMPARE0 = 0;
+    (void)TIMER_COMPARE0; /* the write has arrived before the interrupt ends */
+    TIMER_CC0 = (uint32_t)board_now_us() + WAKE_US;
+}
+
+#define INTERRUPTS (TIMER_INTERRUPT + 1u)
 extern const vector_t board_vectors[SYSTEM_VECTORS + INTERRUPTS];
 __attribute__((section(".vectors"), used)) const vector_t board_vectors[SYSTEM_VECTORS + INTERRUPTS] = {
-    SYSTEM_VECTOR_TABLE, [SYSTEM_VECTORS + UART_INTERRUPT] = uart};
+    SYSTEM_VECTOR_TABLE(start_fault), [SYSTEM_VECTORS + UART_INTERRUPT] = uart,
+    [SYSTEM_VECTORS + TIMER_INTERRUPT] = timer};
+
+uint64_t board_now_us(void)
+{
+    TIMER_CAPTURE1 = 1;
+    time_us += (uint32_t)(TIMER_CC1 - (uint32_t)time_us);
+    return time_us;
+}
+
+/* The processor is halted while the controller is at work. */
+bool board_flash_is_deaf(void)
+{
+    return true;
+}
+
+static void start_timer(void)
+{
+    TIMER_BITMODE = 3;
+    TIMER_PRESCALER = 4;
+    TIMER_CC0 = WAKE_US;
+    TIMER_INTENSET = UINT32_C(1) << 16;
+    enable_interrupt(TIMER_INTERRUPT);
+    TIMER_START = 1;
+}
 
 void board_init(void)
 {
@@ -73,6 +121,7 @@ void board_init(void)
     CLOCK_HFCLKSTART = 1;
     while (CLOCK_HFCLKSTARTED == 0) {
     }
+    start_timer();
     P0_OUTSET = (1u << TXD_PIN) | (1u << LIGHT_PIN);
     P0_DIRSET = (1u << TXD_PIN) | (1u << LIGHT_PIN);
     UART_PSEL_TXD = TXD_PIN;

@@ -20,6 +20,6 @@ static bool program(void *context, unsigned slot, uint32_t offset, const uint8_t
 
 jcal_flash_t board_flash(void)
 {
-    const jcal_flash_t flash = {0, (uint32_t)(uintptr_t)keep_slot_bytes, 4u, erase, program, flash_read};
+    const jcal_flash_t flash = {0, FLASH_SLOT_BYTES, 4u, erase, program, flash_read};
     return flash;
 }

@@ -2,6 +2,7 @@
 /* `jointcal stream` with a whole body: tables and packets to a hub, its events, states and angles out. */
 #include "commands/stream_body.h"
 
+#include "jointcal/body.h"
 #include "jointcal/jointcal.h"
 
 #include <errno.h>
@@ -33,26 +34,26 @@ typedef struct {
     uint8_t ends[BODY_REPORT_MAX][2]; /* sensors of the joints */
     int64_t began_us;                 /* by the clock, when the first packet was due */
 
-    body_wire_table_t table;
+    message_table_t table;
     bool has_table;
-    body_wire_kept_t kept;
+    message_kept_t kept;
     bool has_kept;
     /* Answers to the last question. */
     uint32_t asked;
     bool answering;  /* states that come are of an answer, to this question or an earlier one */
     uint64_t now_us; /* of the last body state */
-    body_wire_body_state_t body;
+    message_body_state_t body;
     bool has_body;
-    body_wire_joint_state_t joints[BODY_REPORT_MAX];
-    body_wire_sensor_state_t sensors[BODY_FILES_MAX];
+    message_joint_state_t joints[BODY_REPORT_MAX];
+    message_sensor_state_t sensors[BODY_FILES_MAX];
     bool has_joint[BODY_REPORT_MAX], has_sensor[BODY_FILES_MAX];
 } run_t;
 
 /* ---- What comes ---- */
 
-static void take_body_state(run_t *run, const body_wire_body_state_t *state)
+static void take_body_state(run_t *run, const message_body_state_t *state)
 {
-    run->now_us = state->t_us;
+    run->now_us = state->status.t_us;
     run->answering = state->token != 0u;
     if (!run->answering) {
         body_report_body(&run->report, state);
@@ -66,7 +67,7 @@ static void take_body_state(run_t *run, const body_wire_body_state_t *state)
     }
 }
 
-static void take_joint_state(run_t *run, const body_wire_joint_state_t *state)
+static void take_joint_state(run_t *run, const message_joint_state_t *state)
 {
     if (state->token == 0u) {
         body_report_joint(&run->report, run->now_us, state);
@@ -76,7 +77,7 @@ static void take_joint_state(run_t *run, const body_wire_joint_state_t *state)
     }
 }
 
-static void take_sensor_state(run_t *run, const body_wire_sensor_state_t *state)
+static void take_sensor_state(run_t *run, const message_sensor_state_t *state)
 {
     if (state->token == 0u) {
         body_report_sensor(&run->report, run->now_us, state);
@@ -89,24 +90,24 @@ static void take_sensor_state(run_t *run, const body_wire_sensor_state_t *state)
 /* Advice has no token: it belongs to the states before it. */
 static void take_advice(run_t *run, const frame_t *frame)
 {
-    body_wire_advice_t advice;
-    if (!run->answering && body_wire_read_advice(frame, &advice)) {
+    message_advice_t advice;
+    if (!run->answering && message_read_advice(frame, &advice)) {
         body_report_advice(&run->report, run->now_us, &advice);
     }
 }
 
 static void take_state(run_t *run, const frame_t *frame)
 {
-    body_wire_joint_state_t joint;
-    body_wire_sensor_state_t sensor;
-    body_wire_body_state_t body;
-    if (frame->type == BODY_WIRE_BODY_STATE && body_wire_read_body(frame, &body)) {
+    message_joint_state_t joint;
+    message_sensor_state_t sensor;
+    message_body_state_t body;
+    if (frame->type == FRAME_BODY_STATE && message_read_body_state(frame, &body)) {
         take_body_state(run, &body);
-    } else if (frame->type == BODY_WIRE_JOINT_STATE && body_wire_read_joint(frame, &joint)) {
+    } else if (frame->type == FRAME_JOINT_STATE && message_read_joint_state(frame, &joint)) {
         take_joint_state(run, &joint);
-    } else if (frame->type == BODY_WIRE_SENSOR_STATE && body_wire_read_sensor(frame, &sensor)) {
+    } else if (frame->type == FRAME_SENSOR_STATE && message_read_sensor_state(frame, &sensor)) {
         take_sensor_state(run, &sensor);
-    } else if (frame->type == BODY_WIRE_ADVICE) {
+    } else if (frame->type == FRAME_ADVICE) {
         take_advice(run, frame);
     }
 }
@@ -115,31 +116,31 @@ static void take_state(run_t *run, const frame_t *frame)
 static void on_frame(void *context, const frame_t *frame)
 {
     run_t *run = context;
-    body_wire_event_t event;
-    body_wire_flexions_t flexions;
-    body_wire_orientations_t orientations;
+    jcal_body_event_t event;
+    message_flexions_t flexions;
+    message_orientations_t orientations;
     progress_clear(&run->progress);
-    if (frame->type == BODY_WIRE_ORIENTATIONS) {
-        if (body_wire_read_orientations(frame, &orientations)) {
+    if (frame->type == FRAME_ORIENTATIONS) {
+        if (message_read_orientations(frame, &orientations)) {
             body_report_orientations(&run->report, &orientations);
         }
         return;
     }
     body_report_flush(&run->report);
     switch (frame->type) {
-    case BODY_WIRE_TABLE:
-        run->has_table = body_wire_read_table(frame, &run->table) || run->has_table;
+    case FRAME_TABLE:
+        run->has_table = message_read_table(frame, &run->table) || run->has_table;
         return;
-    case BODY_WIRE_KEPT:
-        run->has_kept = body_wire_read_kept(frame, &run->kept) && run->kept.token == run->hub.token;
+    case FRAME_KEPT:
+        run->has_kept = message_read_kept(frame, &run->kept) && run->kept.token == run->hub.token;
         return;
-    case BODY_WIRE_EVENT:
-        if (body_wire_read_event(frame, &event)) {
+    case FRAME_EVENT:
+        if (message_read_event(frame, &event)) {
             body_report_event(&run->report, &event);
         }
         return;
-    case BODY_WIRE_FLEXIONS:
-        if (body_wire_read_flexions(frame, &flexions)) {
+    case FRAME_FLEXIONS:
+        if (message_read_flexions(frame, &flexions)) {
             body_report_flexions(&run->report, &flexions);
         }
         return;
@@ -191,7 +192,7 @@ static bool name_of_file(run_t *run, unsigned sensor)
     const char *dot = strrchr(begin, '.');
     const size_t length = (dot != NULL) ? (size_t)(dot - begin) : strlen(begin);
     char *name = run->report.sensors[sensor];
-    if (length == 0 || length > BODY_WIRE_NAME_MAX) {
+    if (length == 0 || length > MESSAGE_NAME_BYTES) {
         return false;
     }
     for (size_t k = 0; k < length; k++) {
@@ -312,26 +313,27 @@ static exit_status_t send_table(run_t *run)
     frame_writer_t payload;
     for (unsigned k = 0; k < run->report.sensor_count && status == EXIT_READY; k++) {
         const float ppm = fabsf(per_sensor(&options->clock_ppm, k));
-        const body_wire_sensor_t sensor = {.number = (uint8_t)k,
-                                           .serial = (options->serial_count > 0) ? options->serials[k] : k + 1u,
-                                           .period_ns = (uint32_t)lrint(1e3 * run->files.radios[k].period_us),
-                                           .counter_bits = 16,
-                                           .per_packet = (uint8_t)options->per_packet,
-                                           .scale = scale_of(options),
-                                           .max_drift_ppm = fminf(1000.0f, fmaxf(DRIFT_PPM, 2.0f * ppm)),
-                                           .name = run->report.sensors[k]};
-        body_wire_write_sensor(&payload, &sensor);
-        status = hub_session_send_frame(&run->hub, (frame_type_t)BODY_WIRE_SENSOR, &payload);
+        message_sensor_t sensor = {.number = (uint8_t)k,
+                                   .serial = (options->serial_count > 0) ? options->serials[k] : k + 1u,
+                                   .packets = jcal_packet_config_default()};
+        sensor.packets.period_ns = (uint32_t)lrint(1e3 * run->files.radios[k].period_us);
+        sensor.packets.counter_bits = 16;
+        sensor.packets.per_packet = (uint8_t)options->per_packet;
+        sensor.packets.scale = scale_of(options);
+        sensor.packets.max_drift_ppm = fminf(1000.0f, fmaxf(DRIFT_PPM, 2.0f * ppm));
+        memcpy(sensor.name, run->report.sensors[k], sizeof sensor.name);
+        message_write_sensor(&payload, &sensor);
+        status = hub_session_send_frame(&run->hub, FRAME_SENSOR, &payload);
     }
     for (unsigned k = 0; k < run->report.joint_count && status == EXIT_READY; k++) {
-        const body_wire_joint_t joint = {.number = (uint8_t)k,
-                                         .kind = run->report.kinds[k],
-                                         .proximal = run->ends[k][0],
-                                         .distal = run->ends[k][1],
-                                         .max_bound_rad = run->common->max_bound,
-                                         .name = run->report.joints[k]};
-        body_wire_write_joint(&payload, &joint);
-        status = hub_session_send_frame(&run->hub, (frame_type_t)BODY_WIRE_JOINT, &payload);
+        message_joint_t joint = {.number = (uint8_t)k,
+                                 .kind = run->report.kinds[k],
+                                 .proximal = run->ends[k][0],
+                                 .distal = run->ends[k][1],
+                                 .max_bound_rad = run->common->max_bound};
+        memcpy(joint.name, run->report.joints[k], sizeof joint.name);
+        message_write_joint(&payload, &joint);
+        status = hub_session_send_frame(&run->hub, FRAME_JOINT, &payload);
     }
     return (status == EXIT_READY) ? hub_session_wait_for(&run->hub, &run->has_table) : status;
 }
@@ -353,13 +355,13 @@ static exit_status_t greet(run_t *run)
 {
     frame_writer_t payload;
     const stream_body_options_t *options = &run->options->body;
-    const body_wire_begin_t begin = {
-        .every_us = (uint64_t)run->common->every_us,
-        .angles_every_us = (uint64_t)options->angles_every_us,
-        .sensors = (uint8_t)run->report.sensor_count,
-        .joints = (uint8_t)run->report.joint_count,
-        .flags = (uint8_t)(BODY_WIRE_LAGS | BODY_WIRE_EXAMINE | (options->keep ? BODY_WIRE_KEEP : 0u))};
-    body_wire_write_begin(&payload, &begin);
+    const message_begin_t begin = {.every_us = (uint64_t)run->common->every_us,
+                                   .angles_every_us = (uint64_t)options->angles_every_us,
+                                   .sensors = (uint8_t)run->report.sensor_count,
+                                   .joints = (uint8_t)run->report.joint_count,
+                                   .flags =
+                                       (uint8_t)(MESSAGE_LAGS | MESSAGE_EXAMINE | (options->keep ? MESSAGE_KEEP : 0u))};
+    message_write_begin(&payload, &begin);
     exit_status_t status = hub_session_greet_body(&run->hub, &payload, on_frame, run);
     status = (status == EXIT_READY) ? send_table(run) : status;
     if (status == EXIT_READY && run->table.refused) {
@@ -367,6 +369,88 @@ static exit_status_t greet(run_t *run)
         complain(run->options->hub.target, 0, 0, "the hub refuses the table: %s%s%s", run->table.what,
                  (name[0] != '\0') ? " of " : "", name);
         status = EXIT_INPUT;
+    }
+    return status;
+}
+
+/* ---- Kept records ---- */
+
+static exit_status_t file_trouble(const char *name, exit_status_t status)
+{
+    complain(name, 0, 0, "%s", strerror(errno));
+    return status;
+}
+
+/* Sends a question about what is kept, and waits for its answer. */
+static exit_status_t ask_kept(run_t *run, frame_type_t type, const frame_writer_t *payload)
+{
+    run->has_kept = false;
+    const exit_status_t status = hub_session_send_frame(&run->hub, type, payload);
+    return (status == EXIT_READY) ? hub_session_wait_for(&run->hub, &run->has_kept) : status;
+}
+
+static exit_status_t put_record(run_t *run, const uint8_t record[JCAL_KEPT_BYTES])
+{
+    message_put_kept_t message = {.token = ++run->hub.token};
+    frame_writer_t payload;
+    memcpy(message.bytes, record, sizeof message.bytes);
+    message_write_put_kept(&payload, &message);
+    const exit_status_t status = ask_kept(run, FRAME_PUT_KEPT, &payload);
+    if (status == EXIT_READY && run->kept.refusal != MESSAGE_KEPT_WRITTEN) {
+        complain(run->options->hub.target, 0, 0, "the hub does not keep a record of %s: %s",
+                 run->options->body.put_kept,
+                 (run->kept.refusal == MESSAGE_KEPT_FLASH_FAILED)
+                     ? "its flash failed, or it has none"
+                     : jcal_kept_refusal_string((jcal_kept_refusal_t)run->kept.refusal));
+        return EXIT_TROUBLE;
+    }
+    return status;
+}
+
+/* Records stand in a file one after the other. */
+static exit_status_t put_kept(run_t *run)
+{
+    const char *name = run->options->body.put_kept;
+    FILE *file = fopen(name, "rb");
+    if (file == NULL) {
+        return file_trouble(name, EXIT_INPUT);
+    }
+    uint8_t record[JCAL_KEPT_BYTES];
+    exit_status_t status = EXIT_READY;
+    size_t got = fread(record, 1, sizeof record, file);
+    for (; got == sizeof record && status == EXIT_READY; got = fread(record, 1, sizeof record, file)) {
+        status = put_record(run, record);
+    }
+    if (status == EXIT_READY && ferror(file) != 0) {
+        status = file_trouble(name, EXIT_TROUBLE);
+    } else if (status == EXIT_READY && got != 0) {
+        complain(name, 0, 0, "a record has %u bytes, and %zu are left over", JCAL_KEPT_BYTES, got);
+        status = EXIT_INPUT;
+    }
+    (void)fclose(file);
+    return status;
+}
+
+static exit_status_t get_kept(run_t *run)
+{
+    const char *name = run->options->body.get_kept;
+    FILE *file = fopen(name, "wb");
+    if (file == NULL) {
+        return file_trouble(name, EXIT_TROUBLE);
+    }
+    exit_status_t status = EXIT_READY;
+    for (unsigned k = 0; k < run->report.joint_count && status == EXIT_READY; k++) {
+        const message_ask_kept_t message = {.token = ++run->hub.token, .joint = (uint8_t)k};
+        frame_writer_t payload;
+        message_write_ask_kept(&payload, &message);
+        status = ask_kept(run, FRAME_GET_KEPT, &payload);
+        if (status == EXIT_READY && run->kept.refusal == (uint8_t)JCAL_KEPT_FITS) {
+            (void)fwrite(run->kept.bytes, 1, sizeof run->kept.bytes, file);
+        }
+    }
+    const bool failed = ferror(file) != 0;
+    if ((fclose(file) != 0 || failed) && status == EXIT_READY) {
+        status = file_trouble(name, EXIT_TROUBLE);
     }
     return status;
 }
@@ -396,16 +480,16 @@ static exit_status_t send_packets(run_t *run)
     for (const radio_packet_t *packet = body_files_next(&run->files, &sensor); packet != NULL;
          packet = body_files_next(&run->files, &sensor)) {
         const int64_t since_us = packet->arrival_us - run->files.start_us;
-        const body_wire_packet_t message = {.sensor = (uint8_t)sensor,
-                                            .arrival_us = ORIGIN_US + (uint64_t)since_us,
-                                            .counter = packet->counter,
-                                            .count = packet->count,
-                                            .raw = run->files.radios[sensor].raw[packet->first]};
+        message_packet_t message = {.sensor = (uint8_t)sensor,
+                                    .arrival_us = ORIGIN_US + (uint64_t)since_us,
+                                    .counter = packet->counter,
+                                    .count = packet->count};
+        memcpy(message.raw, run->files.radios[sensor].raw[packet->first],
+               packet->count * sizeof run->files.radios[sensor].raw[0]);
         frame_writer_t payload;
-        body_wire_write_packet(&payload, &message);
+        message_write_packet(&payload, &message);
         exit_status_t status = wait_due(run, packet->arrival_us);
-        status = (status == EXIT_READY) ? hub_session_send_frame(&run->hub, (frame_type_t)BODY_WIRE_PACKET, &payload)
-                                        : status;
+        status = (status == EXIT_READY) ? hub_session_send_frame(&run->hub, FRAME_PACKET, &payload) : status;
         if (status != EXIT_READY) {
             return status;
         }
@@ -458,11 +542,11 @@ static exit_status_t finish(run_t *run)
     progress_clear(&run->progress);
     bool ready = true;
     for (unsigned k = 0; k < run->report.joint_count; k++) {
-        ready = ready && run->joints[k].status == (uint8_t)JCAL_READY;
+        ready = ready && run->joints[k].result.head.status == JCAL_READY;
     }
     json_t json = json_begin(stdout);
     json_word(&json, "event", "end");
-    body_report_time(&run->report, &json, run->body.t_us);
+    body_report_time(&run->report, &json, run->body.status.t_us);
     json_bool(&json, "ready", ready);
     json_key(&json, "joints");
     for (unsigned k = 0; k < run->report.joint_count; k++) {
@@ -499,7 +583,13 @@ static exit_status_t play(run_t *run)
     }
     tell_played(run);
     status = greet(run);
+    if (status == EXIT_READY && run->options->body.put_kept != NULL) {
+        status = put_kept(run);
+    }
     status = (status == EXIT_READY) ? send_packets(run) : status;
+    if (status == EXIT_READY && run->options->body.get_kept != NULL) {
+        status = get_kept(run);
+    }
     status = (status == EXIT_READY) ? finish(run) : status;
     hub_session_close(&run->hub);
     return status;

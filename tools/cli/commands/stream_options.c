@@ -38,7 +38,7 @@ static bool take_name(const char *text, const char *end, body_name_t name)
 {
     static const char letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
     const size_t length = (size_t)(end - text);
-    if (length == 0 || length > BODY_WIRE_NAME_MAX || strspn(text, letters) < length) {
+    if (length == 0 || length > MESSAGE_NAME_BYTES || strspn(text, letters) < length) {
         return false;
     }
     memcpy(name, text, length);

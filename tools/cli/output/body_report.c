@@ -80,7 +80,7 @@ static const char *event_word(unsigned kind)
     return (kind == (unsigned)JCAL_BODY_NOT_ONE) ? jcal_reason_string(JCAL_REASON_NOT_ONE_JOINT) : word;
 }
 
-static void write_what(json_t *json, const char *word, const body_wire_event_t *event)
+static void write_what(json_t *json, const char *word, const jcal_body_event_t *event)
 {
     if (event->kind == (uint8_t)JCAL_BODY_LEFT_READY) {
         json_word(json, "reason", jcal_reason_string((jcal_reason_t)event->what));
@@ -94,7 +94,7 @@ static void write_what(json_t *json, const char *word, const body_wire_event_t *
     }
 }
 
-void body_report_event(body_report_t *self, const body_wire_event_t *event)
+void body_report_event(body_report_t *self, const jcal_body_event_t *event)
 {
     const char *word = event_word(event->kind);
     json_t json = begin_line(self, (word != NULL) ? word : "unknown", event->t_us);
@@ -113,12 +113,12 @@ void body_report_event(body_report_t *self, const body_wire_event_t *event)
 
 /* ---- States ---- */
 
-void body_report_body_keys(json_t *json, const body_wire_body_state_t *state)
+void body_report_body_keys(json_t *json, const message_body_state_t *state)
 {
-    json_count(json, "rounds", state->rounds);
-    json_count(json, "restarts", state->restarts);
-    json_count(json, "lags_refused", state->lags_refused);
-    json_count(json, "events_dropped", state->events_dropped);
+    json_count(json, "rounds", state->status.rounds);
+    json_count(json, "restarts", state->status.restarts);
+    json_count(json, "lags_refused", state->status.lags_refused);
+    json_count(json, "events_dropped", state->status.events_dropped);
     json_count(json, "flash_writes", state->writes);
 }
 
@@ -137,89 +137,90 @@ static void write_findings(json_t *json, unsigned bad)
     (void)fputc(']', json->file);
 }
 
-void body_report_sensor_keys(const body_report_t *self, json_t *json, const body_wire_sensor_state_t *state)
+void body_report_sensor_keys(const body_report_t *self, json_t *json, const message_sensor_state_t *state)
 {
+    const jcal_body_sensor_result_t *sensor = &state->result;
+    const jcal_packets_status_t *packets = &sensor->packets;
     json_word(json, "sensor", sensor_name(self, state->sensor));
-    json_bool(json, "heard", state->heard);
-    write_findings(json, state->bad);
-    json_count(json, "readings", state->readings);
-    json_count(json, "lost", state->lost);
-    json_count(json, "late", state->late);
-    json_count(json, "duplicate", state->duplicate);
-    json_count(json, "odd", state->odd);
-    json_count(json, "restarts", state->restarts);
-    json_count(json, "steps", state->steps);
-    json_count(json, "overruns", state->overruns);
-    json_number(json, "period_s", state->period_s);
-    json_number(json, "drift_ppm", state->drift_ppm);
-    json_number(json, "shift_s", state->shift_s);
-    json_count(json, "samples", state->samples);
-    json_count(json, "missed", state->missed);
-    json_count(json, "rejected", state->rejected);
-    json_count(json, "late_readings", state->late_readings);
+    json_bool(json, "heard", sensor->is_heard);
+    write_findings(json, sensor->bad);
+    json_count(json, "readings", packets->readings);
+    json_count(json, "lost", packets->lost);
+    json_count(json, "late", packets->late);
+    json_count(json, "duplicate", packets->duplicate);
+    json_count(json, "odd", packets->odd);
+    json_count(json, "restarts", packets->restarts);
+    json_count(json, "steps", packets->steps);
+    json_count(json, "overruns", packets->overruns);
+    json_number(json, "period_s", packets->period_s);
+    json_number(json, "drift_ppm", packets->drift_ppm);
+    json_number(json, "shift_s", sensor->shift_s);
+    json_count(json, "samples", sensor->samples);
+    json_count(json, "missed", sensor->missed);
+    json_count(json, "rejected", sensor->rejected);
+    json_count(json, "late_readings", sensor->late);
 }
 
-void body_report_joint_keys(const body_report_t *self, json_t *json, const body_wire_joint_state_t *state)
+void body_report_joint_keys(const body_report_t *self, json_t *json, const message_joint_state_t *state)
 {
+    const jcal_body_joint_result_t *joint = &state->result;
     json_word(json, "joint", joint_name(self, state->joint));
-    json_word(json, "status", jcal_calibration_string((jcal_calibration_t)state->status));
-    json_word(json, "reason", jcal_reason_string((jcal_reason_t)state->reason));
-    json_word(json, "hint", jcal_hint_string((jcal_hint_t)state->hint));
-    json_word(json, "weak", jcal_weak_string((jcal_weak_t)state->weak));
-    json_word(json, "kept",
-              state->record_found ? jcal_remember_state_string((jcal_remember_state_t)state->kept) : NULL);
-    json_word(json, "kept_reason",
-              state->record_found ? jcal_remember_reason_string((jcal_remember_reason_t)state->kept_reason) : NULL);
-    json_number(json, "lag_s", state->lag_known ? state->lag_s : NAN);
-    json_number(json, "lag_bound_s", state->lag_known ? state->lag_bound_s : NAN);
-    write_vector(json, "axis1", state->axis1);
-    write_vector(json, "axis2", state->axis2);
-    write_bound(json, "uncertainty1_rad", state->uncertainty1_rad);
-    write_bound(json, "uncertainty2_rad", state->uncertainty2_rad);
-    write_vector(json, "joint_to_sensor1_m", state->joint_to_sensor1_m);
-    write_vector(json, "joint_to_sensor2_m", state->joint_to_sensor2_m);
-    json_number(json, "heading_rad", state->heading_known ? state->heading_rad : NAN);
-    write_bound(json, "flexion_bound_rad", state->flexion_bound_rad);
-    write_bound(json, "relative_bound_rad", state->relative_bound_rad);
+    json_word(json, "status", jcal_calibration_string(joint->head.status));
+    json_word(json, "reason", jcal_reason_string(joint->head.reason));
+    json_word(json, "hint", jcal_hint_string(joint->head.hint));
+    json_word(json, "weak", jcal_weak_string(joint->head.weak));
+    json_word(json, "kept", joint->has_kept ? jcal_remember_state_string(joint->kept) : NULL);
+    json_word(json, "kept_reason", joint->has_kept ? jcal_remember_reason_string(joint->kept_reason) : NULL);
+    json_number(json, "lag_s", joint->lag_known ? joint->lag_s : NAN);
+    json_number(json, "lag_bound_s", joint->lag_known ? joint->lag_bound_s : NAN);
+    write_vector(json, "axis1", joint->axis1);
+    write_vector(json, "axis2", joint->axis2);
+    write_bound(json, "uncertainty1_rad", joint->uncertainty1_rad);
+    write_bound(json, "uncertainty2_rad", joint->uncertainty2_rad);
+    write_vector(json, "joint_to_sensor1_m", joint->joint_to_sensor1_m);
+    write_vector(json, "joint_to_sensor2_m", joint->joint_to_sensor2_m);
+    json_number(json, "heading_rad", joint->heading.known ? joint->heading.heading_rad : NAN);
+    write_bound(json, "flexion_bound_rad", joint->flexion_bound_rad);
+    write_bound(json, "relative_bound_rad", joint->relative_bound_rad);
     json_bool(json, "asleep", state->asleep);
-    json_count(json, "samples", state->samples);
+    json_count(json, "samples", joint->head.samples);
 }
 
-void body_report_body(body_report_t *self, const body_wire_body_state_t *state)
+void body_report_body(body_report_t *self, const message_body_state_t *state)
 {
-    json_t json = begin_line(self, "body", state->t_us);
+    json_t json = begin_line(self, "body", state->status.t_us);
     body_report_body_keys(&json, state);
     end_line(&json);
 }
 
-void body_report_sensor(body_report_t *self, uint64_t t_us, const body_wire_sensor_state_t *state)
+void body_report_sensor(body_report_t *self, uint64_t t_us, const message_sensor_state_t *state)
 {
     json_t json = begin_line(self, "sensor", t_us);
     body_report_sensor_keys(self, &json, state);
     end_line(&json);
 }
 
-void body_report_joint(body_report_t *self, uint64_t t_us, const body_wire_joint_state_t *state)
+void body_report_joint(body_report_t *self, uint64_t t_us, const message_joint_state_t *state)
 {
     json_t json = begin_line(self, "joint", t_us);
     body_report_joint_keys(self, &json, state);
     end_line(&json);
 }
 
-void body_report_advice(body_report_t *self, uint64_t t_us, const body_wire_advice_t *advice)
+void body_report_advice(body_report_t *self, uint64_t t_us, const message_advice_t *advice)
 {
     json_t json = begin_line(self, "advice", t_us);
-    json_word(&json, "joint", joint_name(self, advice->joint));
-    json_word(&json, "sensor", sensor_name(self, advice->sensor));
-    json_word(&json, "hint", jcal_hint_string((jcal_hint_t)advice->hint));
-    json_word(&json, "reason", jcal_reason_string((jcal_reason_t)advice->reason));
+    json_word(&json, "joint", joint_name(self, advice->advice.joint));
+    json_word(&json, "sensor", sensor_name(self, advice->advice.sensor));
+    json_word(&json, "hint", jcal_hint_string(advice->advice.hint));
+    json_word(&json, "reason", jcal_reason_string(advice->advice.reason));
     write_text(&json, "text", advice->text);
     end_line(&json);
 }
 
 /* ---- Angles ---- */
 
-void body_report_flexions(body_report_t *self, const body_wire_flexions_t *flexions)
+void body_report_flexions(body_report_t *self, const message_flexions_t *flexions)
 {
     body_report_flush(self);
     self->has_angles = true;
@@ -228,14 +229,14 @@ void body_report_flexions(body_report_t *self, const body_wire_flexions_t *flexi
     for (unsigned k = 0; k < flexions->count; k++) {
         const unsigned joint = flexions->of[k].joint;
         if (joint < self->joint_count && self->kinds[joint] == (uint8_t)JCAL_BODY_HINGE) {
-            self->known[joint] = isfinite(flexions->of[k].angle_rad);
-            self->angle_rad[joint] = flexions->of[k].angle_rad;
+            self->known[joint] = isfinite(flexions->of[k].flexion_rad);
+            self->angle_rad[joint] = flexions->of[k].flexion_rad;
             self->bound_rad[joint] = flexions->of[k].bound_rad;
         }
     }
 }
 
-void body_report_orientations(body_report_t *self, const body_wire_orientations_t *orientations)
+void body_report_orientations(body_report_t *self, const message_orientations_t *orientations)
 {
     for (unsigned k = 0; k < orientations->count && self->has_angles && self->angles_us == orientations->t_us; k++) {
         const unsigned joint = orientations->of[k].joint;

@@ -4,14 +4,14 @@
 #ifndef JCAL_CLI_OUTPUT_BODY_REPORT_H
 #define JCAL_CLI_OUTPUT_BODY_REPORT_H
 
+#include "body_messages.h"
 #include "output/json.h"
-#include "run/body_wire.h"
 
 /// Most sensors and joints that are told of.
 #define BODY_REPORT_MAX 32
 
 /// A name, ended by a zero.
-typedef char body_name_t[BODY_WIRE_NAME_MAX + 1];
+typedef char body_name_t[MESSAGE_NAME_BYTES + 1];
 
 typedef struct {
     FILE *file;
@@ -32,21 +32,21 @@ typedef struct {
 } body_report_t;
 
 /// One line each.
-void body_report_event(body_report_t *self, const body_wire_event_t *event);
-void body_report_body(body_report_t *self, const body_wire_body_state_t *state);
-void body_report_sensor(body_report_t *self, uint64_t t_us, const body_wire_sensor_state_t *state);
-void body_report_joint(body_report_t *self, uint64_t t_us, const body_wire_joint_state_t *state);
-void body_report_advice(body_report_t *self, uint64_t t_us, const body_wire_advice_t *advice);
+void body_report_event(body_report_t *self, const jcal_body_event_t *event);
+void body_report_body(body_report_t *self, const message_body_state_t *state);
+void body_report_sensor(body_report_t *self, uint64_t t_us, const message_sensor_state_t *state);
+void body_report_joint(body_report_t *self, uint64_t t_us, const message_joint_state_t *state);
+void body_report_advice(body_report_t *self, uint64_t t_us, const message_advice_t *advice);
 
 /// Angles of one time make one line, which is written by the next call of body_report_flush.
-void body_report_flexions(body_report_t *self, const body_wire_flexions_t *flexions);
-void body_report_orientations(body_report_t *self, const body_wire_orientations_t *orientations);
+void body_report_flexions(body_report_t *self, const message_flexions_t *flexions);
+void body_report_orientations(body_report_t *self, const message_orientations_t *orientations);
 void body_report_flush(body_report_t *self);
 
 /// Keys of a state, into an object that is being written.
-void body_report_body_keys(json_t *json, const body_wire_body_state_t *state);
-void body_report_sensor_keys(const body_report_t *self, json_t *json, const body_wire_sensor_state_t *state);
-void body_report_joint_keys(const body_report_t *self, json_t *json, const body_wire_joint_state_t *state);
+void body_report_body_keys(json_t *json, const message_body_state_t *state);
+void body_report_sensor_keys(const body_report_t *self, json_t *json, const message_sensor_state_t *state);
+void body_report_joint_keys(const body_report_t *self, json_t *json, const message_joint_state_t *state);
 
 /// `t_s` of the hub's time `t_us`, null before any.
 void body_report_time(const body_report_t *self, json_t *json, uint64_t t_us);

@@ -2,8 +2,6 @@
 /* Talk with a hub. */
 #include "run/hub_session.h"
 
-#include "run/body_wire.h"
-
 #include <inttypes.h>
 #include <stdio.h>
 #include <string.h>
@@ -150,7 +148,7 @@ exit_status_t hub_session_greet_body(hub_session_t *session, frame_writer_t *beg
 {
     session->on_other = on_other;
     session->context = context;
-    const exit_status_t status = greet(session, (frame_type_t)BODY_WIRE_BEGIN, begin);
+    const exit_status_t status = greet(session, FRAME_BEGIN, begin);
     return (status == EXIT_READY && session->hello.refused)
                ? trouble(session, "the hub has no room for so many sensors or joints")
                : status;

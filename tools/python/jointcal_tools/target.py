@@ -3,11 +3,14 @@
 tools/same_bits.py. Needs gcc-arm-none-eabi, picolibc-arm-none-eabi and qemu-system-arm; standard library only."""
 import csv
 import ctypes
+import math
 import os
+import random
 import re
 import struct
 import subprocess
 import sys
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -18,6 +21,8 @@ TWO_SENSORS, THREE_SENSORS = "12", "123"
 # For programs only: the library is built by CMake, which alone knows its flags.
 PROGRAM_FLAGS = ["-std=c99", "-Wall", "-Wextra", "-O2", "-DNDEBUG", "-ffunction-sections", "-fdata-sections"]
 QEMU_SECONDS = 300
+# Of port/cortex_m/replay_person.h: values of a packet, and what a raw rate and a raw force are worth (LSM6DSV, 2000 deg/s and 16 g).
+PERSON_VALUES, PERSON_SCALES = 24, (math.radians(0.070), 0.488e-3 * 9.80665)
 
 
 @dataclass(frozen=True)
@@ -116,6 +121,32 @@ def orientations_file(recording: Path, rate_hz: float | None = None, seconds: fl
     return part.replace(folder / "samples.bin")
 
 
+def write_packets(path: Path, packets: Iterable[tuple[int, int, int, Sequence[int]]], end_us: int) -> Path:
+    """Packets in the order of arrival for REPLAY_PERSON: arrival, us, counter, sensor, six raw values of each reading; then time until `end_us`."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f"{path.name}.{os.getpid()}")  # renamed when complete: another run may be reading
+    with part.open("wb") as out:
+        for arrival_us, counter, sensor, raw in packets:
+            out.write(struct.pack(f"<QIBBH{PERSON_VALUES}h", arrival_us, counter, sensor, len(raw) // 6, 0, *raw, *[0] * (PERSON_VALUES - len(raw))))
+        out.write(struct.pack(f"<QIBBH{PERSON_VALUES}h", end_us, 0, 0, 0, 0, *[0] * PERSON_VALUES))
+    return part.replace(path)
+
+
+def person_file(recording: Path, seconds: float = 20.0) -> Path:
+    """A body of sixteen sensors that read in turns what both sensors of the recording do, with clocks, delays and losses of their own."""
+    rows, draw, packets = resampled(rows_of(recording), 100.0, seconds), random.Random(5), []
+    for sensor in range(16):
+        first, late_us, step_us = 1 + 6 * (sensor % 2), draw.random() * 50e3, 1e4 * (1.0 + 1e-4 * (2.0 * draw.random() - 1.0))
+        counter, at, before_us = int(draw.random() * 65536), 0, 0
+        while at + 4 <= len(rows):
+            raw = [max(-32768, min(32767, round(x / PERSON_SCALES[k // 3]))) for row in rows[at:at + 4] for k, x in enumerate(row[first:first + 6])]
+            before_us = max(before_us + 1, round(1e6 + (at + 4) * step_us + late_us - 6e3 * math.log(1.0 - draw.random())))
+            if draw.random() > 0.05 and (at // 100) % 16 != sensor:  # one packet in twenty, and once a second without any
+                packets.append((before_us, (counter + at) % 65536, sensor, raw))
+            at += 4
+    return write_packets(WORK / "person" / recording.stem / "samples.bin", sorted(packets), round(1e6 * (seconds + 2.0)))
+
+
 def recordings(names: list[str], bundled: str = "hinge_demo") -> list[Path]:
     """The named recordings of $JOINTCAL_DATA, or the bundled one, with a message, if they are not there."""
     data = Path(os.environ.get("JOINTCAL_DATA", ROOT / "data"))
@@ -165,7 +196,7 @@ def build_plugin() -> Path:
     return plugin
 
 
-def run(platform: Platform, image: Path, samples: Path, plugin: Path | None = None, out: Path | None = None) -> dict:
+def run(platform: Platform, image: Path, samples: Path, plugin: Path | None = None, out: Path | None = None, most_s: float = QEMU_SECONDS) -> dict:
     """What the replay program printed: samples, hash, state, stack, samples before the first that was ready, slices (if shown)."""
     command = [str(image)]
     if platform.cpu:
@@ -175,7 +206,7 @@ def run(platform: Platform, image: Path, samples: Path, plugin: Path | None = No
         if plugin:
             command += ["-plugin", f"{plugin},out={out}"]
     done = subprocess.run(command, cwd=samples.parent, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          timeout=QEMU_SECONDS, check=False)
+                          timeout=most_s, check=False)
     match = re.search(r"samples (\d+) hash (\w+) state (\d+) stack (\d+) before_ready (\d+)", done.stdout)
     if done.returncode != 0 or not match:
         raise RuntimeError(f"{image.name} on {platform.name}: exit {done.returncode}: {done.stdout}{done.stderr}")

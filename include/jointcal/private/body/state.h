@@ -19,7 +19,7 @@ extern "C" {
 /// Events that may wait.
 /// Places for kept calibrations that are looked at.
 #define JCAL_BODY_PLACES 6u
-#define JCAL_BODY_EVENTS 32u
+#define JCAL_BODY_EVENTS 16u
 
 /// The last two readings of a sensor, by the body's time, less its lag.
 typedef struct {
@@ -55,11 +55,11 @@ typedef struct {
     uint8_t status;            ///< As last told: jcal_calibration_t.
     uint8_t ticks;             ///< Ticks since it was looked at.
     bool lag_known;
-    uint8_t against;  ///< Looks at which the two sensors seemed to share no joint, less those at which they did.
-    bool no_lag;      ///< No lag was found although it moved: nothing that both sensors share was seen at any.
-    bool not_one;     ///< That was told.
-    bool due;         ///< Its engine may have a slice of work.
-    uint8_t kept;     ///< What became of its kept calibration: jcal_body_kept_phase_t of lib/body/restore.h.
+    uint8_t against;      ///< Looks at which the two sensors seemed to share no joint, less those at which they did.
+    bool no_lag;          ///< No lag was found although it moved: nothing that both sensors share was seen at any.
+    bool not_one;         ///< That was told.
+    bool due;             ///< Its engine may have a slice of work.
+    uint8_t kept;         ///< What became of its kept calibration: jcal_body_kept_phase_t of lib/body/restore.h.
     uint8_t kept_reason;  ///< jcal_remember_reason_t.
     bool lag_is_kept;     ///< Its lag is that of its kept calibration.
 } jcal_body_joint_t;

@@ -55,6 +55,7 @@ class Wire:
     max_delay_s: float = 0.5
     raw: bool = False
     restarts: bool = False
+    least: int = 1  # readings of a packet
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,7 @@ def send(wire: Wire, signals: np.ndarray, index: int, rng: np.random.Generator, 
         if epoch > 0:  # half a round from where an 8-bit counter would be
             origin = last_counter + round((RESTART_SILENCE_S / step_s) + (1 << wire.bits) / 2)
         while at < len(t_s):
-            count = min(int(rng.integers(1, wire.most + 1)), len(t_s) - at)
+            count = min(int(rng.integers(wire.least, wire.most + 1)), len(t_s) - at)
             ready_s = t_s[at + count - 1]
             arrival = max(ready_s + wire.base_s + rng.exponential(JITTER_S), before_s)
             clean = number_of < RESTART_CLEAN or not bad
