@@ -24,7 +24,7 @@
 #define HUB_PRIORITY 1u
 #define BEAT_PRIORITY 3u
 /* Words. README.md says what of it is used. */
-#define HUB_STACK 1024u
+#define HUB_STACK 2048u
 #define BEAT_STACK 160u
 
 typedef char table_fits_its_alignment[(TABLE_ENTRIES * sizeof(vector_t) <= TABLE_ALIGNMENT) ? 1 : -1];
