@@ -1,11 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// The stand-in for flash of the MPS2: memory without a controller. A byte is written at once.
-#define FLASH_SLOTS ((uintptr_t)0x203FE000u)
-#define FLASH_SLOT_BYTES 4096u
 #include "simulated.h"
-
-#include "port/boards/mps2_an386/flash.c"
 
 void setUp(void)
 {

@@ -2,13 +2,12 @@
 /// @file
 /// The flash driver of the nRF52840 on a model of its controller [Product Specification, NVMC]: written and erased only where CONFIG allows it, by
 /// whole words, each at most twice between erases; nothing is begun or configured while READY is 0.
-#define FLASH_SLOTS ((uintptr_t)0x000FE000u)
-#define FLASH_SLOT_BYTES 4096u
-#define PATIENCE 100u
 #include "simulated.h"
 
-#include "port/boards/nrf52840/flash.c"
-
+#define REG_CONFIG 0x4001E504u
+#define REG_ERASEPAGE 0x4001E508u
+#define MODE_READ 0u
+#define MODE_WRITE 1u
 #define WRITES_MAX 2u /* nWRITE */
 
 static uint32_t config;
@@ -25,12 +24,12 @@ void tearDown(void)
 
 static void power_up(void)
 {
-    config = CONFIG_READ;
+    config = MODE_READ;
 }
 
 static void is_at_rest(void)
 {
-    TEST_ASSERT_EQUAL_UINT32(CONFIG_READ, config);
+    TEST_ASSERT_EQUAL_UINT32(MODE_READ, config);
     TEST_ASSERT_EQUAL_INT(NOTHING, chip.doing);
 }
 
@@ -50,9 +49,9 @@ static void write_register(uintptr_t address, uint32_t word)
         misused("a register written while the controller is busy");
         return;
     }
-    if (address == 0x4001E504u && word <= 2u) {
+    if (address == REG_CONFIG && word <= 2u) {
         config = word;
-    } else if (address == 0x4001E508u && config == 2u && is_flash(word) && ((word % 4096u) == 0u)) {
+    } else if (address == REG_ERASEPAGE && config == 2u && is_flash(word) && ((word % 4096u) == 0u)) {
         begin_doing(AN_ERASE, (uint32_t)(word - FLASH_SLOTS), 0u);
     } else {
         misused("a register or a value that is none");
@@ -99,8 +98,8 @@ static void flash_that_is_not_unlocked_stays(void)
 {
     access_write(FLASH_SLOTS, 0u);
     TEST_ASSERT_NOT_NULL(chip.misuse);
-    access_write(NVMC_CONFIG, CONFIG_WRITE);
-    access_write(NVMC_ERASEPAGE, (uint32_t)FLASH_SLOTS);
+    access_write(REG_CONFIG, MODE_WRITE);
+    access_write(REG_ERASEPAGE, (uint32_t)FLASH_SLOTS);
     complete();
     TEST_ASSERT_EACH_EQUAL_HEX8(0xFF, chip.bytes, SIMULATED_BYTES);
 }

@@ -2,12 +2,7 @@
 /// @file
 /// The flash driver of the STM32F405 on a model of its controller [RM0090, embedded flash memory interface]: CR is locked until both keys came in order,
 /// a sector is erased by SER, SNB and STRT, words are programmed with PG and PSIZE 2; what is done otherwise sets an error and writes nothing.
-#define FLASH_SLOTS ((uintptr_t)0x08004000u)
-#define FLASH_SLOT_BYTES 16384u
-#define PATIENCE 100u
 #include "simulated.h"
-
-#include "port/boards/stm32f405/flash.c"
 
 /* Bits of the manual, beside what the driver makes of them. */
 #define REG_KEYR 0x40023C04u

@@ -149,11 +149,33 @@ static unsigned step_slice(jcal_body_t *self)
     return 0u;
 }
 
+static uint8_t within(uint8_t at, unsigned count, uint8_t otherwise)
+{
+    return (at < count) ? at : otherwise;
+}
+
+/// Indices that damaged memory may have put out of the caller's arrays.
+static void stay_within(jcal_body_t *self)
+{
+    const unsigned joints = self->table.joint_count;
+    jcal_body_restore_t *const restore = &self->restore;
+    self->round.at = within(self->round.at, self->table.sensor_count, 0u);
+    self->probe.joint = within(self->probe.joint, joints, JCAL_BODY_NONE);
+    self->exam.sensor = within(self->exam.sensor, self->table.sensor_count, 0u);
+    self->pace.period_us += (self->pace.period_us == 0u) ? 1u : 0u;
+    restore->next = within(restore->next, JCAL_BODY_PLACES, 0u);
+    restore->next_joint = within(restore->next_joint, joints, 0u);
+    for (unsigned p = 0u; p < JCAL_BODY_PLACES; ++p) {
+        restore->joint[p] = within(restore->joint[p], joints, JCAL_BODY_NONE);
+    }
+}
+
 jcal_status_t jcal_body_step(jcal_body_t *self, uint64_t now_us, unsigned units)
 {
     if ((self == NULL) || !self->is_ready) {
         return JCAL_ERR_ARG;
     }
+    stay_within(self);
     jcal_body_round_now(self, now_us);
     bool has_rounds = true;
     unsigned left = units;

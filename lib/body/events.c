@@ -7,7 +7,7 @@
 
 void jcal_body_events_put(jcal_body_events_t *self, const jcal_body_event_t *event)
 {
-    if (self->count == JCAL_BODY_EVENTS) {
+    if (self->count >= JCAL_BODY_EVENTS) {
         self->first = (uint8_t)((self->first + 1u) % JCAL_BODY_EVENTS);
         self->count = (uint8_t)(self->count - 1u);
         self->dropped += 1u;
@@ -21,7 +21,7 @@ bool jcal_body_events_take(jcal_body_events_t *self, jcal_body_event_t *out)
     if (self->count == 0u) {
         return false;
     }
-    *out = self->ring[self->first];
+    *out = self->ring[self->first % JCAL_BODY_EVENTS];
     self->first = (uint8_t)((self->first + 1u) % JCAL_BODY_EVENTS);
     self->count = (uint8_t)(self->count - 1u);
     return true;

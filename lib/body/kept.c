@@ -55,7 +55,7 @@ bool jcal_body_keep_due(jcal_body_t *self)
     }
     jcal_body_restore_t *const restore = &self->restore;
     if ((self->round.number - restore->checked) >= (CHECK_US / self->pace.period_us)) {
-        const unsigned j = restore->next_check;
+        const unsigned j = restore->next_check % self->table.joint_count;
         const uint32_t bit = UINT32_C(1) << j;
         restore->checked = self->round.number;
         restore->next_check = (uint8_t)((j + 1u) % self->table.joint_count);

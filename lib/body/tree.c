@@ -17,7 +17,7 @@ bool jcal_body_hangs_on(const jcal_body_t *self, unsigned sensor, unsigned root)
     unsigned at = sensor;
     for (unsigned k = 0u; k < self->table.sensor_count; ++k) {
         const unsigned joint = self->table.sensor_states[at].joint;
-        if ((at == root) || (joint == JCAL_BODY_NONE)) {
+        if ((at == root) || (joint >= self->table.joint_count)) {
             break;
         }
         at = self->table.joints[joint].proximal;
@@ -25,7 +25,7 @@ bool jcal_body_hangs_on(const jcal_body_t *self, unsigned sensor, unsigned root)
     return at == root;
 }
 
-static int32_t magnitude(int32_t value)
+static int64_t magnitude(int64_t value)
 {
     return (value < 0) ? -value : value;
 }
@@ -37,7 +37,7 @@ bool jcal_body_shift(jcal_body_t *self, unsigned joint, float lag_s)
     const unsigned root = self->table.joints[joint].distal;
     for (unsigned s = 0u; s < self->table.sensor_count; ++s) {
         if (jcal_body_hangs_on(self, s, root) &&
-            (magnitude(self->table.sensor_states[s].shift_us + lag_us) > most_us)) {
+            (magnitude((int64_t)self->table.sensor_states[s].shift_us + lag_us) > most_us)) {
             self->lags_refused += 1u;
             return false;
         }
@@ -51,7 +51,7 @@ bool jcal_body_shift(jcal_body_t *self, unsigned joint, float lag_s)
         }
     }
     jcal_body_joint_t *const state = &self->table.joint_states[joint];
-    state->off_us += lag_us;
+    state->off_us = (int32_t)((uint32_t)state->off_us + (uint32_t)lag_us);
     if (magnitude(state->off_us) > ANEW_US) {
         state->off_us = 0;
         jcal_body_engine_reset(&self->table.joints[joint]);

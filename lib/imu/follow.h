@@ -19,7 +19,7 @@ static inline unsigned jcal_follow_slices(float slices_per_s, uint64_t dt_us)
 {
     const float dt_s = (dt_us < JCAL_FOLLOW_LONGEST_US) ? ((float)(uint32_t)dt_us * 1e-6f) : 1.0f;
     const float due = 1.0f + (0.9f * slices_per_s * dt_s); /* less: samples are not evenly apart */
-    return (due < (float)JCAL_FOLLOW_SLICES_MAX) ? (unsigned)due : JCAL_FOLLOW_SLICES_MAX;
+    return ((due >= 0.0f) && (due < (float)JCAL_FOLLOW_SLICES_MAX)) ? (unsigned)due : JCAL_FOLLOW_SLICES_MAX;
 }
 
 /// True if orientations are better followed with this reading than without: what is clipped, or repeats the one before in place of a lost

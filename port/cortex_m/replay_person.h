@@ -44,7 +44,7 @@ typedef struct {
     jcal_body_joint_t joints[PERSON_JOINTS];
     jcal_functional_t hinges[PERSON_JOINTS];
     unsigned char storage[PERSON_SENSORS][JCAL_PACKETS_STORAGE_BYTES(PERSON_SLOTS, PERSON_PER_PACKET, JCAL_PACKET_RAW)];
-    jcal_lag_t lag;
+    jcal_body_shared_t shared;
     jcal_health_t health;
 } whole_person_t;
 
@@ -69,7 +69,8 @@ static jcal_status_t engine_init(void)
     person_packets.max_delay_s = 0.5f;
     jcal_status_t status = jcal_chip_scale("LSM6DSV", 2000.0f, 16.0f, &person_packets.scale);
     for (unsigned s = 0; s < PERSON_SENSORS; ++s) {
-        const jcal_body_sensor_spec_t spec = {NULL, &person_packets, replayed.storage[s], sizeof(replayed.storage[s])};
+        const jcal_body_sensor_spec_t spec = {NULL, &person_packets, replayed.storage[s], sizeof(replayed.storage[s]),
+                                              0u};
         person_sensors[s] = spec;
     }
     for (unsigned j = 0; (j < PERSON_JOINTS) && (status == JCAL_OK); ++j) {
@@ -78,8 +79,8 @@ static jcal_status_t engine_init(void)
         person_joints[j] = spec;
         status = jcal_functional_init(&replayed.hinges[j], &settings);
     }
-    const jcal_body_table_t table = {person_sensors,  replayed.sensors, PERSON_SENSORS, person_joints,
-                                     replayed.joints, PERSON_JOINTS,    &replayed.lag,  &replayed.health};
+    const jcal_body_table_t table = {person_sensors, replayed.sensors, PERSON_SENSORS,   person_joints, replayed.joints,
+                                     PERSON_JOINTS,  &replayed.shared, &replayed.health, NULL};
     return (status == JCAL_OK) ? jcal_body_init(&replayed.body, &table, &config) : status;
 }
 
