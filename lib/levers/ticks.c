@@ -17,7 +17,7 @@
 
 /// Age of an epoch after a gap from which its mean specific force is a mean, s. A person's trunk and legs go up and down at 1 to 3 m/s^2, rms, and
 /// of that 0.3 m/s^2 is left in the mean of 10 s, 0.6 m/s^2 in that of 3 s: as much as is not to be trusted.
-#define GRAVITY_S 10.0f
+#define GRAVITY_S 20.0f
 
 /// Longest distance of two ticks, s: sensor.h makes them at most 0.16 s apart. Largest sum of the squares of a tick's numbers: rates of
 /// 200 rad/s and velocities of 1600 m/s, the limits of sensor.h, make 4e6.
