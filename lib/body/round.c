@@ -21,8 +21,10 @@
 #define SILENT_US 1000000u
 #define AHEAD_US 1000000u
 
-/// Time after which filters have forgotten what they began with, s: docs/METHOD_HUB.md, section 1.
+/// Time after which filters have forgotten what they began with, s, for a lag and for a kept calibration; and for what a joint learns, whose watch
+/// for slips sees the inclination of a sensor that has just begun: docs/METHOD_HUB.md, section 1.
 #define SETTLED_S 3.0f
+#define SETTLED_JOINT_S 5.0f
 
 /// Units of a reading without what an examination adds, of a sample or the end of a round, of a joint's ticks, of the same for the lag.
 #define READING_UNITS 1u
@@ -222,12 +224,15 @@ static bool add_to_joint(jcal_body_t *self, unsigned j)
     if (!ticks_of(self, joint, ticks)) {
         return false;
     }
-    jcal_body_engine_add(joint, ticks[0], ticks[1]);
     jcal_body_restore_add(self, j, ticks[0], ticks[1]);
+    self->slices_due = true;
+    if (jcal_min(ticks[0]->since_s, ticks[1]->since_s) < SETTLED_JOINT_S) {
+        return true;
+    }
+    jcal_body_engine_add(joint, ticks[0], ticks[1]);
     state->epoch1 = ticks[0]->epoch;
     state->epoch2 = ticks[1]->epoch;
     state->due = true;
-    self->slices_due = true;
     state->ticks = (uint8_t)((state->ticks < UINT8_MAX) ? (state->ticks + 1u) : UINT8_MAX);
     return true;
 }

@@ -115,6 +115,7 @@ static void cut(jcal_functional_t *self)
         jcal_functional_sums_close(&self->sums, &self->point);
     }
     self->slice = (uint8_t)IDLE; /* a judgement would be of other blocks than it began with */
+    self->cut = true;
     jcal_functional_track_clear(self);
 }
 
@@ -227,6 +228,19 @@ static uint8_t next_of(const jcal_functional_t *self, unsigned slice)
     return (uint8_t)(slice + 1u);
 }
 
+/// The slice that a judgement begins with. Once ready one round follows what changes in a second; after a gap it must not begin with a heading
+/// from before that: places and axes would be fitted to it.
+static uint8_t first_of(const jcal_functional_t *self, bool is_ready)
+{
+    if (!self->search.has_estimate) {
+        return (uint8_t)ROUNDS_END;
+    }
+    if (self->cut) {
+        return (uint8_t)(JCAL_FUNCTIONAL_ROUND_SLICES - 1u);
+    }
+    return (uint8_t)(is_ready ? JCAL_FUNCTIONAL_ROUND_SLICES : 0u);
+}
+
 static void work(jcal_functional_t *self)
 {
     const unsigned slice = self->slice;
@@ -329,10 +343,12 @@ jcal_status_t jcal_functional_step(jcal_functional_t *self)
         if (!(self->since_s >= (is_ready ? JUDGE_READY_EVERY_S : JUDGE_EVERY_S))) {
             return JCAL_IDLE;
         }
+        if (self->cut && self->search.has_estimate && !jcal_functional_sums_has_heading(&self->sums)) {
+            return JCAL_IDLE;
+        }
         self->since_s = 0.0f;
-        const unsigned first =
-            is_ready ? JCAL_FUNCTIONAL_ROUND_SLICES : 0u; /* one round follows what changes in a second */
-        self->slice = (uint8_t)(self->search.has_estimate ? first : ROUNDS_END);
+        self->slice = first_of(self, is_ready);
+        self->cut = false;
     }
     self->credit -= 1.0f;
     work(self);

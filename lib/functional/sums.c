@@ -107,6 +107,11 @@ bool jcal_functional_sums_full(const jcal_functional_sums_t *self)
     return (self->block[0].time_s >= BLOCK_S) && (self->block[0].motion_s >= BLOCK_MOTION_S);
 }
 
+bool jcal_functional_sums_has_heading(const jcal_functional_sums_t *self)
+{
+    return self->block[0].motion_s >= BLOCK_MOTION_S;
+}
+
 void jcal_functional_sums_close(jcal_functional_sums_t *self, jcal_functional_point_t *point)
 {
     jcal_functional_block_t *const old = &self->block[1];

@@ -22,6 +22,9 @@ void jcal_functional_sums_add(jcal_functional_sums_t *self, const jcal_tick_t *t
 /// True if the open block is long enough to be closed.
 bool jcal_functional_sums_full(const jcal_functional_sums_t *self);
 
+/// True if the newest block has motion enough to have a heading of its own.
+bool jcal_functional_sums_has_heading(const jcal_functional_sums_t *self);
+
 /// Closes the open block and begins another, with the same heading; the block before is merged with the heading it has in `point`.
 void jcal_functional_sums_close(jcal_functional_sums_t *self, jcal_functional_point_t *point);
 

@@ -15,6 +15,10 @@
 /// Time after a gap that filters are cold for, s. 1, 2 and 3 s were tried on a person's knee over a bad wire (docs/METHOD_PEOPLE.md).
 #define COLD_S 2.0f
 
+/// Age of an epoch after a gap from which its mean specific force is a mean, s. A person's trunk and legs go up and down at 1 to 3 m/s^2, rms, and
+/// of that 0.3 m/s^2 is left in the mean of 10 s, 0.6 m/s^2 in that of 3 s: as much as is not to be trusted.
+#define GRAVITY_S 20.0f
+
 /// Longest distance of two ticks, s: sensor.h makes them at most 0.16 s apart. Largest sum of the squares of a tick's numbers: rates of
 /// 200 rad/s and velocities of 1600 m/s, the limits of sensor.h, make 4e6.
 #define TICK_MAX_S 0.4f
@@ -36,6 +40,26 @@ static bool is_possible(const jcal_tick_t *tick)
     return (all <= SQUARES_MAX) && (tick->dt_s > 0.0f) && (tick->dt_s <= TICK_MAX_S);
 }
 
+static bool is_young(const jcal_tick_t *tick)
+{
+    return (tick->epoch > 1u) && (tick->since_s < GRAVITY_S);
+}
+
+/// How far a sensor's mean is from gravity; 0 if it is young, and something is known.
+static float off_of(const jcal_tick_pair_t *self, const jcal_tick_t *tick)
+{
+    return (self->has_gravity && is_young(tick)) ? 0.0f : fabsf(tick->acc_level_m_s2 - GRAVITY_M_S2);
+}
+
+/// A gap of either sensor is no news of its accelerometer: what was known stands until there is a mean again, unless the other one speaks.
+static void take_gravity(jcal_tick_pair_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
+{
+    const bool held = is_young(tick1) || is_young(tick2);
+    const float off = jcal_max(off_of(self, tick1), off_of(self, tick2));
+    self->gravity_off = (held && self->has_gravity) ? jcal_max(off, self->gravity_off) : off;
+    self->has_gravity = self->has_gravity || !held;
+}
+
 jcal_ticks_t jcal_ticks_take(jcal_tick_pair_t *self, const jcal_tick_t *tick1, const jcal_tick_t *tick2)
 {
     const bool in_order = !self->has_tick || (tick1->t_us > self->last_us);
@@ -48,9 +72,7 @@ jcal_ticks_t jcal_ticks_take(jcal_tick_pair_t *self, const jcal_tick_t *tick1, c
     self->epoch2 = tick2->epoch;
     self->last_us = tick1->t_us;
     self->count += 1u;
-    const float off1 = fabsf(tick1->acc_level_m_s2 - GRAVITY_M_S2);
-    const float off2 = fabsf(tick2->acc_level_m_s2 - GRAVITY_M_S2);
-    self->gravity_off = jcal_max(off1, off2);
+    take_gravity(self, tick1, tick2);
     return goes_on ? JCAL_TICKS_GO_ON : JCAL_TICKS_ANEW;
 }
 
@@ -82,5 +104,6 @@ void jcal_ticks_forget(jcal_tick_pair_t *self)
 {
     self->rate2 = 0.0f;
     self->gravity_off = 0.0f;
+    self->has_gravity = false;
     self->has_tick = true;
 }

@@ -189,6 +189,61 @@ static void gravity_of_either_sensor(void)
     }
 }
 
+/* Off gravity by so much: what is told after one more pair of ticks, whose sensor `which` has such a mean. */
+static float off_after(int which, uint32_t epoch, float since_s, float mean)
+{
+    jcal_tick_t tick[2];
+    run_make(&run, &tick[0], &tick[1]);
+    tick[0].acc_level_m_s2 = 9.81f;
+    tick[1].acc_level_m_s2 = 9.81f;
+    tick[which].acc_level_m_s2 = mean;
+    tick[1].epoch = epoch;
+    tick[1].since_s = since_s;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_functional_add(&run.joint, &tick[0], &tick[1]));
+    ++run.next;
+    return run_result(&run).gravity_off_m_s2;
+}
+
+/* The mean of the first seconds after a gap is none: what was known stands. The other sensor, which has a mean, is heard. */
+static void gravity_after_a_gap_of_a_sensor(void)
+{
+    const hinge_t hinge = hinge_usual();
+    run_begin(&run, &hinge, NULL);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.8f, off_after(1, 2u, 3.0f, 9.01f)); /* nothing is known: it must do */
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, off_after(1, 2u, 30.0f, 9.81f));
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, off_after(1, 3u, 3.0f, 9.01f));
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.7f, off_after(0, 3u, 19.0f, 9.11f));
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.7f, off_after(1, 3u, 19.5f, 9.81f)); /* held, until both have a mean */
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.8f, off_after(1, 3u, 20.5f, 9.01f));
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.0f, off_after(1, 3u, 21.0f, 9.81f));
+}
+
+/* After a gap no judgement begins before the new block has motion enough for a heading of its own; it then begins with that heading. */
+static void a_judgement_after_a_gap_begins_with_the_heading(void)
+{
+    const hinge_t hinge = hinge_usual();
+    jcal_tick_t tick[2];
+    run_begin(&run, &hinge, NULL);
+    run_for(&run, 10.0);
+    TEST_ASSERT_EQUAL_INT(JCAL_READY, run_result(&run).head.status);
+    bool has_begun = false;
+    for (int k = 0; (k < 200) && !has_begun; ++k) {
+        run_make(&run, &tick[0], &tick[1]);
+        tick[1].epoch += 1u;
+        tick[1].since_s = 5.0f;
+        ++run.next;
+        TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_functional_add(&run.joint, &tick[0], &tick[1]));
+        const float motion_s = run.joint.sums.block[0].motion_s;
+        const bool worked = jcal_functional_step(&run.joint) == JCAL_OK;
+        has_begun = !run.joint.cut;
+        TEST_ASSERT_EQUAL(has_begun, worked);
+        TEST_ASSERT_TRUE(!has_begun || (motion_s >= 0.4f));
+        TEST_ASSERT_EQUAL_INT(JCAL_READY, run_result(&run).head.status);
+    }
+    TEST_ASSERT_TRUE(has_begun);
+    TEST_ASSERT_EQUAL_UINT8(JCAL_FUNCTIONAL_ROUND_SLICES, run.joint.slice); /* the headings' slice was done */
+}
+
 /* A trial becomes the estimate if it is better by the odds that are asked for. */
 static void a_better_trial_is_taken(void)
 {
@@ -275,6 +330,8 @@ int main(void)
     RUN_TEST(ticks_between_the_slices_of_the_bounds);
     RUN_TEST(weights_of_a_tick);
     RUN_TEST(gravity_of_either_sensor);
+    RUN_TEST(gravity_after_a_gap_of_a_sensor);
+    RUN_TEST(a_judgement_after_a_gap_begins_with_the_heading);
     RUN_TEST(a_better_trial_is_taken);
     RUN_TEST(a_gap_of_either_sensor);
     RUN_TEST(another_estimate_is_judged_anew);

@@ -46,6 +46,7 @@ typedef struct {
     uint8_t slice;   ///< Next slice of the judgement.
     int8_t kept_sign[2];
     bool merged;   ///< A block was merged: headings cannot be begun anew any more.
+    bool cut;      ///< Features began anew, and no judgement has begun since.
     bool asleep;   ///< Nothing is learnt: the heading is followed, and slips are watched for.
     bool adopted;  ///< The estimate was handed over, and is not of the sums.
 } jcal_functional_t;
