@@ -46,7 +46,7 @@ mkdir -p "$out"
 flags=(-std=c99 -g -O1 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -Wall -Wextra -Werror -Iinclude -Ilib -Itools/cli -Iport/hub
     -fsanitize=fuzzer,address,undefined,float-cast-overflow -fno-sanitize-recover=all)
 mapfile -t library < <(find lib -name '*.c' | sort)
-hub=(port/hub/frame.c port/hub/messages.c port/hub/hub.c)
+hub=(port/hub/frame.c port/hub/messages.c port/hub/body_messages.c port/hub/hub_pair.c port/hub/hub_body.c port/hub/hub.c)
 reader=(tools/cli/input/{check,check_frames,check_health,check_sensor,check_time,csv,file_kind,header_help,kept_rows,number,recording}.c)
 
 # What the fuzzers share is compiled once, on all cores; an object that failed is missing when the fuzzer is linked.
