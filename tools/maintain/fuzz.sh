@@ -49,7 +49,7 @@ flags=(-std=c99 -g -O1 -D_POSIX_C_SOURCE=200809L -ffp-contract=off -Wall -Wextra
 # Corrupted memory has bools that are neither; everywhere else they are an error as any other.
 export UBSAN_OPTIONS=halt_on_error=1
 mapfile -t library < <(find lib -name '*.c' | sort)
-hub=(port/hub/frame.c port/hub/messages.c port/hub/hub.c)
+hub=(port/hub/frame.c port/hub/messages.c port/hub/body_messages.c port/hub/hub_pair.c port/hub/hub_body.c port/hub/hub.c)
 reader=(tools/cli/input/{check,check_frames,check_health,check_sensor,check_time,csv,file_kind,header_help,kept_rows,number,recording}.c)
 
 # What the fuzzers share is compiled once, on all cores; an object that failed is missing when the fuzzer is linked.
