@@ -69,7 +69,7 @@ static exit_status_t give_up(const sensor_file_t *file, const char *name, record
 static exit_status_t read_sensor(radio_t *radio, const char *name, bool sorted)
 {
     sensor_file_t file;
-    recording_row_t row;
+    recording_row_t row = {0};
     exit_status_t status = EXIT_READY;
     recording_event_t event = sensor_file_open(&file, name, 1, sorted);
     for (event = (event == RECORDING_ROW) ? sensor_file_next(&file, &row) : event;
