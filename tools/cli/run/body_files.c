@@ -31,7 +31,7 @@ static exit_status_t read_rows(body_files_t *self, reading_t *reading)
     recording_event_t event = recording_next(&reading->recording, &row);
     for (; event == RECORDING_ROW; event = recording_next(&reading->recording, &row)) {
         const jcal_imu_t *const imus[] = {&row.imu1, &row.imu2, &row.imu3};
-        for (unsigned k = 0; k < self->count && row.has_time; k++) {
+        for (unsigned k = 0; k < self->count && k < sizeof imus / sizeof imus[0] && row.has_time; k++) {
             if (!add(&self->radios[k], row.t_us, imus[k])) {
                 return no_memory();
             }
@@ -69,7 +69,7 @@ static exit_status_t give_up(const sensor_file_t *file, const char *name, record
 static exit_status_t read_sensor(radio_t *radio, const char *name, bool sorted)
 {
     sensor_file_t file;
-    recording_row_t row;
+    recording_row_t row = {0};
     exit_status_t status = EXIT_READY;
     recording_event_t event = sensor_file_open(&file, name, 1, sorted);
     for (event = (event == RECORDING_ROW) ? sensor_file_next(&file, &row) : event;

@@ -81,7 +81,8 @@ static double median_distance(const radio_t *self)
         distances[k] = self->rows[k + 1].t_us - self->rows[k].t_us;
     }
     qsort(distances, count, sizeof *distances, by_size);
-    const double median = (double)distances[count / 2];
+    const size_t middle = count / 2;
+    const double median = (double)distances[middle];
     free(distances);
     return median;
 }
