@@ -155,14 +155,18 @@ static bool give(jcal_body_t *self, unsigned place)
     return true;
 }
 
-/// What motion has confirmed gives angles at once, if it is good enough for any.
+/// What motion has confirmed gives angles at once, if it is good enough for any; else the joint's own estimator has the last word.
 static void confirm(jcal_body_t *self, unsigned j, const jcal_remember_t *remember,
                     const jcal_remember_result_t *result)
 {
     jcal_body_joint_t *const state = &self->table.joint_states[j];
+    if (!jcal_body_engine_adopt(&self->table.joints[j], &remember->kept, result)) {
+        state->kept = (uint8_t)JCAL_BODY_KEPT_LEFT;
+        state->kept_reason = (uint8_t)JCAL_REMEMBER_AXES;
+        return;
+    }
     state->kept = (uint8_t)JCAL_BODY_KEPT_CONFIRMED;
     state->kept_reason = (uint8_t)JCAL_REMEMBER_NONE;
-    (void)jcal_body_engine_adopt(&self->table.joints[j], &remember->kept, result);
     jcal_body_tell_joint(self, j, JCAL_BODY_CONFIRMED, 0u, 0.0f);
 }
 
