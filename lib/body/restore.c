@@ -182,18 +182,17 @@ static void decide(jcal_body_t *self, unsigned place)
     state->kept_reason = (uint8_t)result.reason;
     const uint32_t since = self->round.number - restore->since[place];
     const bool turn_ends = since >= rounds_of(self, TURN_US);
+    const bool is_still = (turn_ends && (result.motion_s < STILL_S)) || (since >= rounds_of(self, LONG_US));
     if (result.state == JCAL_REMEMBER_CONFIRMED) {
         confirm(self, j, remember, &result);
     } else if (result.state == JCAL_REMEMBER_DROPPED) {
         drop(self, j, result.reason);
-    } else if (turn_ends && (result.motion_s < STILL_S)) {
-        state->kept = (uint8_t)JCAL_BODY_KEPT_STILL;
     } else if (turn_ends && (result.motion_s >= ENOUGH_S)) {
         state->kept = (uint8_t)JCAL_BODY_KEPT_LEFT;
+    } else if (is_still) {
+        state->kept = (uint8_t)JCAL_BODY_KEPT_STILL;
     } else if (turn_ends && (find(self, JCAL_BODY_KEPT_WAITS, 0u) != JCAL_BODY_NONE)) {
         state->kept = (uint8_t)JCAL_BODY_KEPT_WAITS;
-    } else if (since >= rounds_of(self, LONG_US)) {
-        state->kept = (uint8_t)JCAL_BODY_KEPT_STILL;
     } else {
         return;
     }
