@@ -52,6 +52,7 @@ class Outcome:
     at_first: tuple[float, float, float, float]  # errors and bounds of both axes when first ready, deg
     over_share: float  # of ready time with an axis beyond its bound
     angle_deg: float  # rms over the first WINDOW_S of angles
+    is_kept_axes: bool  # when first ready, the axes were those that were kept
 
 
 def wires_of(rng: np.random.Generator, bases: np.ndarray) -> list[Wire]:
@@ -100,13 +101,15 @@ def judge(group: str, case: str, found: Found, j: int, axes: tuple[np.ndarray, n
         off = np.exp(1j * (sign * rows[:, 14] - np.interp(when, np.arange(len(flexion)) / RATE_HZ, flexion)))[some]
         off = off[np.isfinite(off) & (np.diff(found.time_us[some].astype(float), prepend=0.0) > 0.0)]  # not while the first sensor, of which times are told, is missing
         angle_deg = float(np.degrees(np.sqrt(np.mean(np.angle(off / np.mean(off)) ** 2))))
+    is_kept_axes = bool(remembered is not None and case != NONE and ready.any() and np.abs(rows[int(ready.argmax()), 6:12] - remembered).max() < 1e-5)
+
     def since(at_s: float) -> float:
         if motion_s is None or not np.isfinite(at_s):
             return at_s - begin
         return float(np.diff(np.interp([SETTLED_S, at_s], np.arange(len(motion_s)) / RATE_HZ, motion_s))[0])
 
     times = (first(t_s, has_angle), first(t_s, ready), told(found, "confirmed", j, ORIGIN_US), told(found, "dropped", j, ORIGIN_US))
-    return Outcome(group, case, bool((rows[:, 16] > 0).any()), *map(since, times), off_deg, at_first, over, angle_deg)
+    return Outcome(group, case, bool((rows[:, 16] > 0).any()), *map(since, times), off_deg, at_first, over, angle_deg, is_kept_axes)
 
 
 def turned(values: np.ndarray, angle_deg: float, rng: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
@@ -202,8 +205,8 @@ def is_far(o: Outcome) -> bool:
 
 
 def is_adopted(o: Outcome) -> bool:
-    """Ready as soon as it was confirmed: with what was kept, not with what it found itself."""
-    return abs(o.confirmed_s - o.ready_s) < 0.5
+    """Ready with the very axes that were kept, not with what it found itself: that, too, confirms what it agrees with."""
+    return o.is_kept_axes
 
 
 def row_of(group: str, case: str, mine: list[Outcome]) -> list:
