@@ -65,6 +65,7 @@ MEASUREMENTS = {
     "lag_left": "simulated hinges whose sensor 2 is late by as much as the bound of a known lag allows",
     "pairing": "the lag of two sensors: recordings and simulated joints told a lag, unrelated pairs",
     "remember": "kept calibrations restored on the same sensors, and on ones that sit otherwise: confirmed, dropped, or neither",
+    "restore": "yesterday's calibrations in a body: how soon joints give angles, how good they are, what is dropped",
     "body": "a whole person: sixteen sensors over a bad wire, fifteen joints: ready, errors, lags, angles, faults that are named",
     "body_m4f": "ten minutes of a whole person on an emulated Cortex-M4F: instructions of every 10 ms, memory, the same bits as here",
     "soak": "an hour of packets of two sensors over a bad wire: counters, times, lag and calibration beside the truth",

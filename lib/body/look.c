@@ -43,12 +43,12 @@ void jcal_body_look(jcal_body_t *self, unsigned joint)
     jcal_body_joint_t *const state = &self->table.joint_states[joint];
     jcal_body_joint_result_t result;
     jcal_body_engine_get(&self->table.joints[joint], &result);
-    if (result.head.status == JCAL_READY) {
-        jcal_body_restore_settle(self, joint);
-    }
     const bool fits_nothing = state->no_lag && (result.head.reason == JCAL_REASON_DOES_NOT_FIT);
     doubt(self, joint, fits_nothing || (result.head.reason == JCAL_REASON_NOT_ONE_JOINT));
     jcal_body_report(self, joint, &result);
+    if (result.head.status == JCAL_READY) { /* and is believed: times and sensors are right */
+        jcal_body_restore_settle(self, joint);
+    }
     const unsigned status = (unsigned)result.head.status;
     const unsigned reason = (unsigned)result.head.reason;
     const bool was_ready = state->status == (uint8_t)JCAL_READY;

@@ -155,14 +155,18 @@ static bool give(jcal_body_t *self, unsigned place)
     return true;
 }
 
-/// What motion has confirmed gives angles at once, if it is good enough for any.
+/// What motion has confirmed gives angles at once, if it is good enough for any; else the joint's own estimator has the last word.
 static void confirm(jcal_body_t *self, unsigned j, const jcal_remember_t *remember,
                     const jcal_remember_result_t *result)
 {
     jcal_body_joint_t *const state = &self->table.joint_states[j];
+    if (!jcal_body_engine_adopt(&self->table.joints[j], &remember->kept, result)) {
+        state->kept = (uint8_t)JCAL_BODY_KEPT_LEFT;
+        state->kept_reason = (uint8_t)JCAL_REMEMBER_AXES;
+        return;
+    }
     state->kept = (uint8_t)JCAL_BODY_KEPT_CONFIRMED;
     state->kept_reason = (uint8_t)JCAL_REMEMBER_NONE;
-    (void)jcal_body_engine_adopt(&self->table.joints[j], &remember->kept, result);
     jcal_body_tell_joint(self, j, JCAL_BODY_CONFIRMED, 0u, 0.0f);
 }
 
@@ -178,18 +182,17 @@ static void decide(jcal_body_t *self, unsigned place)
     state->kept_reason = (uint8_t)result.reason;
     const uint32_t since = self->round.number - restore->since[place];
     const bool turn_ends = since >= rounds_of(self, TURN_US);
+    const bool is_still = (turn_ends && (result.motion_s < STILL_S)) || (since >= rounds_of(self, LONG_US));
     if (result.state == JCAL_REMEMBER_CONFIRMED) {
         confirm(self, j, remember, &result);
     } else if (result.state == JCAL_REMEMBER_DROPPED) {
         drop(self, j, result.reason);
-    } else if (turn_ends && (result.motion_s < STILL_S)) {
-        state->kept = (uint8_t)JCAL_BODY_KEPT_STILL;
     } else if (turn_ends && (result.motion_s >= ENOUGH_S)) {
         state->kept = (uint8_t)JCAL_BODY_KEPT_LEFT;
+    } else if (is_still) {
+        state->kept = (uint8_t)JCAL_BODY_KEPT_STILL;
     } else if (turn_ends && (find(self, JCAL_BODY_KEPT_WAITS, 0u) != JCAL_BODY_NONE)) {
         state->kept = (uint8_t)JCAL_BODY_KEPT_WAITS;
-    } else if (since >= rounds_of(self, LONG_US)) {
-        state->kept = (uint8_t)JCAL_BODY_KEPT_STILL;
     } else {
         return;
     }

@@ -3,6 +3,7 @@
 /// A calibration that is known from elsewhere is handed over. See functional.h.
 #include "functional/judge.h"
 #include "functional/track.h"
+#include "joint/hysteresis.h"
 #include "joint/sign.h"
 #include "jointcal/functional.h"
 #include "jointcal/vec3.h"
@@ -60,8 +61,10 @@ jcal_status_t jcal_functional_adopt(jcal_functional_t *self, const jcal_function
         return JCAL_ERR_ARG;
     }
     const float bound = jcal_max(known->uncertainty1_rad, known->uncertainty2_rad);
+    /* It was ready before, and stays so a little beyond the limits, as in judge.c. */
     const bool for_axes = bound <= self->cfg.max_bound_rad;
-    if (!for_axes && !jcal_functional_is_for_flexion(known->flexion_uncertainty_rad, bound, &self->cfg, 1.0f)) {
+    if (!for_axes &&
+        !jcal_functional_is_for_flexion(known->flexion_uncertainty_rad, bound, &self->cfg, JCAL_HYSTERESIS)) {
         return JCAL_REJECTED;
     }
     const jcal_tick_pair_t ticks = self->ticks;
@@ -69,7 +72,8 @@ jcal_status_t jcal_functional_adopt(jcal_functional_t *self, const jcal_function
     self->ticks = ticks;
     take_known(self, known);
     self->verdict.for_axes = for_axes;
-    self->verdict.for_flexion = jcal_functional_is_for_flexion(known->flexion_uncertainty_rad, bound, &self->cfg, 1.0f);
+    self->verdict.for_flexion =
+        jcal_functional_is_for_flexion(known->flexion_uncertainty_rad, bound, &self->cfg, JCAL_HYSTERESIS);
     self->asleep = true;
     self->adopted = true;
     return JCAL_OK;

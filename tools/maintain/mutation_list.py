@@ -124,7 +124,10 @@ O_EXAM = "lib/body/exam.c"
 O_LINE = "lib/body/line.c"
 O_LOOK = "lib/body/look.c"
 O_PROBE = "lib/body/probe.c"
+O_RESTORE = "lib/body/restore.c"
+O_KEPT = "lib/body/kept.c"
 O_ROUND = "lib/body/round.c"
+F_ADOPT = "lib/functional/adopt.c"
 O_TREE = "lib/body/tree.c"
 O_TRUST = "lib/body/trust.c"
 A_JUDGE = "lib/auto/judge.c"
@@ -1129,6 +1132,16 @@ MUTATIONS = [
     (O_LINE, "begin_at(self, pace, n + 1u);", "(void)n;", "a hole after what was missed"),
     (O_LOOK, "const bool is_told_by_times = jcal_body_in_step(self, joint) || state->no_lag;", "const bool is_told_by_times = jcal_body_in_step(self, joint);", "no lag at all explains the motion"),
     (O_PROBE, "state->lag_s += off_s;", "state->lag_s = 0.0f;", "what was taken off"),
+    (O_RESTORE, "if ((wanted.serial1 != 0u) && (wanted.serial2 != 0u)) {", "if (true) {", "serial numbers that are not known"),
+    (O_RESTORE, "kept->lag_bound_s + LAG_ANEW_S;", "kept->lag_bound_s;", "a radio that connects anew"),
+    (O_RESTORE, "if (!state->lag_known) { /*", "if (false) { /*", "a record without a lag"),
+    (O_RESTORE, "if (!is_there || !jcal_remember_agrees(&kept, &now)) {", "if (!is_there) {", "an own estimate that disagrees"),
+    (O_RESTORE, "const bool is_compared = was_confirmed &&", "const bool is_compared = false &&", "a joint that was woken is compared"),
+    (O_KEPT, "self->restore.worth &= ~put;", "(void)put;", "what was written is not worth it again"),
+    (O_KEPT, "kept.has_lag = state->lag_known;", "kept.has_lag = false;", "the lag is kept"),
+    (O_LOOK, "jcal_body_restore_moved(self, joint);", "", "a slip drops what was kept"),
+    (F_ADOPT, "const float bound = jcal_max(known->uncertainty1_rad, known->uncertainty2_rad);", "const float bound = known->uncertainty2_rad;", "a bound of axis 1 that is too wide"),
+    (F_ADOPT, "point->size[f] = known->usual[f];", "point->size[f] = 1e3f;", "slips after adoption"),
     (O_ROUND, ">= SETTLED_S);", ">= 0.0f);", "filters that have not settled"),
     (O_ROUND, "- (uint64_t)(int64_t)sensor->shift_us;", ";", "lags are taken off"),
     (O_ROUND, "if (!knows && sensor->is_heard && !is_over) {", "if (!knows && !is_over) {", "who is silent is not waited for"),

@@ -91,6 +91,11 @@ static inline void assert_kept(const jcal_kept_t *expected, const jcal_kept_t *a
     TEST_ASSERT_EQUAL(expected->has_zero, actual->has_zero);
     TEST_ASSERT_EQUAL_FLOAT(expected->flexion_zero_rad, actual->flexion_zero_rad);
     TEST_ASSERT_EQUAL_FLOAT(expected->pronation_zero_rad, actual->pronation_zero_rad);
+    TEST_ASSERT_EQUAL(expected->has_lag, actual->has_lag);
+    TEST_ASSERT_EQUAL_FLOAT(expected->lag_s, actual->lag_s);
+    TEST_ASSERT_EQUAL_FLOAT(expected->lag_bound_s, actual->lag_bound_s);
+    TEST_ASSERT_EQUAL(expected->has_usual, actual->has_usual);
+    TEST_ASSERT_EQUAL_FLOAT_ARRAY(expected->usual, actual->usual, 3);
     TEST_ASSERT_EQUAL_MEMORY(&expected->frames, &actual->frames, sizeof expected->frames);
 }
 

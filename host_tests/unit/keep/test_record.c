@@ -86,6 +86,35 @@ static void what_is_not_known_comes_back_as_zero(void)
     }
 }
 
+/* The description says where: the lag at 104, its bound at 108, residuals at 112. */
+static void the_lag_and_usual_residuals_come_back(void)
+{
+    static const uint8_t EXPECTED[] = {0x00, 0x00, 0x80, 0xBD, 0x00, 0x00, 0x00, 0x3C, 0x00, 0x00,
+                                       0x00, 0x3F, 0x00, 0x00, 0x80, 0x3E, 0x00, 0x00, 0x00, 0x3B};
+    jcal_kept_t kept = hinge_of(0u);
+    jcal_kept_t out;
+    uint8_t bytes[JCAL_KEPT_BYTES];
+    kept.has_lag = true;
+    kept.lag_s = -0.0625f;
+    kept.lag_bound_s = 0.0078125f;
+    kept.has_usual = true;
+    kept.usual[0] = 0.5f;
+    kept.usual[1] = 0.25f;
+    kept.usual[2] = 0.001953125f;
+    TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_kept_encode(&kept, bytes));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(EXPECTED, &bytes[104], sizeof EXPECTED);
+    TEST_ASSERT_EQUAL_INT(JCAL_KEPT_FITS, jcal_kept_decode(bytes, NULL, &out));
+    assert_kept(&kept, &out);
+    kept.lag_s = 10.5f; /* beyond JCAL_KEPT_LAG_MAX_S */
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_kept_encode(&kept, bytes));
+    kept.lag_s = 0.0f;
+    kept.lag_bound_s = -0.001f;
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_kept_encode(&kept, bytes));
+    kept.lag_bound_s = 0.0f;
+    kept.usual[2] = NAN;
+    TEST_ASSERT_EQUAL_INT(JCAL_ERR_ARG, jcal_kept_encode(&kept, bytes));
+}
+
 static jcal_kept_refusal_t decode(const uint8_t *bytes, const jcal_kept_wanted_t *wanted)
 {
     jcal_kept_t out;
@@ -246,6 +275,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(bytes_are_those_of_the_description);
     RUN_TEST(what_is_not_known_comes_back_as_zero);
+    RUN_TEST(the_lag_and_usual_residuals_come_back);
     RUN_TEST(each_refusal_says_why);
     RUN_TEST(values_that_no_record_has_are_damage);
     RUN_TEST(what_cannot_be_read_is_not_written);
