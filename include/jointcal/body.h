@@ -75,7 +75,8 @@ typedef enum {
     JCAL_BODY_REMEMBERED = 9,   ///< A calibration of a joint was kept; motion is to confirm it.
     JCAL_BODY_CONFIRMED = 10,   ///< It still holds.
     JCAL_BODY_DROPPED = 11,     ///< It does not; `what` has the reason of remember.h.
-    JCAL_BODY_KEPT = 12         ///< What is worth it was written to flash; of no joint and no sensor.
+    JCAL_BODY_KEPT = 12,        ///< What is worth it was written to flash; of no joint and no sensor.
+    JCAL_BODY_EXCHANGED = 13    ///< `sensor` and sensor number `what` seem to sit on each other's segment.
 } jcal_body_event_kind_t;
 
 /// What is known of a joint.

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /// @file
 /// What to do next, and as a sentence. See body.h.
+#include "body/exchange.h"
 #include "body/report.h"
 #include "body/restore.h"
 
@@ -140,6 +141,13 @@ jcal_status_t jcal_body_sentence(const jcal_body_t *self, const jcal_body_advice
         put(&writer, "Check the sensor on the ");
         put_name(&writer, self->table.sensors[advice->sensor].name, "segment of sensor ", advice->sensor);
         put(&writer, ": it is faulty or set up wrongly.");
+    } else if (has_joint && (advice->reason == JCAL_REASON_NOT_ONE_JOINT) &&
+               jcal_body_exchange_explains(self, advice->joint)) {
+        put(&writer, "Exchange the sensors of the ");
+        put_name(&writer, self->table.sensors[self->exchange.sensor1].name, "sensor ", self->exchange.sensor1);
+        put(&writer, " and the ");
+        put_name(&writer, self->table.sensors[self->exchange.sensor2].name, "sensor ", self->exchange.sensor2);
+        put(&writer, ": each seems to sit on the other's segment.");
     } else if (has_joint) {
         const char *before;
         const char *after;

@@ -87,6 +87,7 @@ jcal_status_t jcal_body_init(jcal_body_t *self, const jcal_body_table_t *table, 
     self->table = *table;
     set_pace(&self->pace, config);
     self->probe.joint = JCAL_BODY_NONE;
+    self->probe.other = JCAL_BODY_NONE;
     jcal_body_restore_begin(self);
     self->is_ready = true;
     return (table->health == NULL) ? JCAL_OK : jcal_health_init(table->health);
@@ -161,6 +162,11 @@ static void stay_within(jcal_body_t *self)
     jcal_body_restore_t *const restore = &self->restore;
     self->round.at = within(self->round.at, self->table.sensor_count, 0u);
     self->probe.joint = within(self->probe.joint, joints, JCAL_BODY_NONE);
+    self->probe.other = within(self->probe.other, self->table.sensor_count, JCAL_BODY_NONE);
+    self->exchange.joint = within(self->exchange.joint, joints, 0u);
+    self->exchange.other = within(self->exchange.other, self->table.sensor_count, 0u);
+    self->exchange.sensor1 = within(self->exchange.sensor1, self->table.sensor_count, 0u);
+    self->exchange.sensor2 = within(self->exchange.sensor2, self->table.sensor_count, 0u);
     self->exam.sensor = within(self->exam.sensor, self->table.sensor_count, 0u);
     self->pace.period_us += (self->pace.period_us == 0u) ? 1u : 0u;
     restore->next = within(restore->next, JCAL_BODY_PLACES, 0u);

@@ -45,7 +45,7 @@ const char *jcal_body_event_string(jcal_body_event_kind_t kind)
 {
     static const char *const words[] = {"ready",      "left_ready",  "moved",       "not_one",     "lag_found",
                                         "sensor_bad", "sensor_fine", "sensor_lost", "sensor_back", "remembered",
-                                        "confirmed",  "dropped",     "kept"};
+                                        "confirmed",  "dropped",     "kept",        "exchanged"};
     const int index = (int)kind;
     return ((index >= 0) && ((size_t)index < (sizeof words / sizeof words[0]))) ? words[index] : NULL;
 }

@@ -5,13 +5,14 @@
 
 #include "body/engine.h"
 #include "body/events.h"
+#include "body/exchange.h"
 #include "body/report.h"
 #include "body/restore.h"
 
 /// Looks, four a second, at which the engine must have said more often than not that this is not one joint before it is told; and those, once
 /// it is, that it must not say so before it is believed again: a minute. A look that says so then counts as so many others.
 #define DOUBT_MOST 20u
-#define TOLD_MOST 240u
+#define TOLD_MOST JCAL_BODY_AGAINST_MOST
 #define TOLD_STEP 12u
 
 /// Tells that the two sensors share no joint, once the engine has said so for long, or that nothing fits where no lag does either; and no lag

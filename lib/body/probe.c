@@ -4,6 +4,7 @@
 #include "body/probe.h"
 
 #include "body/events.h"
+#include "body/exchange.h"
 #include "body/restore.h"
 #include "body/tree.h"
 
@@ -51,10 +52,29 @@ static unsigned next_joint(const jcal_body_t *self)
 
 static void leave(jcal_body_t *self)
 {
-    self->table.joint_states[self->probe.joint].probed = self->round.number;
+    if (self->probe.other == JCAL_BODY_NONE) {
+        self->table.joint_states[self->probe.joint].probed = self->round.number;
+    }
+    self->probe.was_other = self->probe.other != JCAL_BODY_NONE;
+    self->probe.other = JCAL_BODY_NONE;
     self->probe.joint = JCAL_BODY_NONE;
     self->probe.since = self->round.number;
     self->probe.due = false;
+}
+
+/// Begins with two sensors that may sit on each other's segment, if it is their turn; false if there are none.
+static bool choose_other(jcal_body_t *self)
+{
+    unsigned joint = 0u;
+    unsigned other = 0u;
+    if (self->probe.was_other || !jcal_body_exchange_next(self, &joint, &other) ||
+        (jcal_lag_init(&self->table.shared->lag) != JCAL_OK)) {
+        return false;
+    }
+    self->probe.joint = (uint8_t)joint;
+    self->probe.other = (uint8_t)other;
+    self->probe.since = self->round.number;
+    return true;
 }
 
 /// Begins with the next joint, at once if its lag is not known.
@@ -62,9 +82,10 @@ static void choose(jcal_body_t *self)
 {
     jcal_body_probe_t *const probe = &self->probe;
     const unsigned joint = next_joint(self);
-    if (jcal_body_restore_first(self)) {
+    if (jcal_body_restore_first(self) || choose_other(self)) {
         return;
     }
+    self->probe.was_other = false;
     const bool waits = (self->round.number - probe->since) >= rounds_of(self, AGAIN_US);
     if ((waits || !self->table.joint_states[joint].lag_known) && (jcal_lag_init(&self->table.shared->lag) == JCAL_OK)) {
         probe->joint = (uint8_t)joint;
@@ -109,7 +130,9 @@ bool jcal_body_probe_step(jcal_body_t *self)
     if (jcal_lag_step(&self->table.shared->lag) != JCAL_OK) {
         return false;
     }
-    align(self);
+    if (self->probe.other == JCAL_BODY_NONE) {
+        align(self);
+    }
     return true;
 }
 
@@ -145,11 +168,16 @@ bool jcal_body_probe_look(jcal_body_t *self)
     const uint32_t since = self->round.number - probe->since;
     const bool is_still =
         (since >= rounds_of(self, STILL_US)) && (result.taken_s == 0.0f) && (result.motion_s < MOTION_MIN_S);
-    if (result.lag_known) {
+    if (result.lag_known && (probe->other != JCAL_BODY_NONE)) {
+        jcal_body_exchange_found(self, probe->joint, probe->other);
+        leave(self);
+    } else if (result.lag_known) {
         found(self, &result);
     } else if (is_still || (since >= rounds_of(self, PATIENCE_US))) {
-        self->table.joint_states[probe->joint].no_lag =
-            (result.motion_s >= MOTION_DENY_S) && (result.left >= LEFT_DENY);
+        if (probe->other == JCAL_BODY_NONE) {
+            self->table.joint_states[probe->joint].no_lag =
+                (result.motion_s >= MOTION_DENY_S) && (result.left >= LEFT_DENY);
+        }
         leave(self);
     } else {
         /* it goes on */

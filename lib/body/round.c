@@ -242,10 +242,11 @@ static unsigned add_to_lag(jcal_body_t *self)
     if (self->probe.joint == JCAL_BODY_NONE) {
         return SAMPLE_UNITS;
     }
-    const jcal_body_joint_spec_t *const joint = &self->table.joints[self->probe.joint];
+    jcal_body_joint_spec_t joint = self->table.joints[self->probe.joint];
     const jcal_tick_t *ticks[2];
     self->probe.due = true;
-    if (!ticks_of(self, joint, ticks)) {
+    joint.distal = (self->probe.other == JCAL_BODY_NONE) ? joint.distal : self->probe.other;
+    if (!ticks_of(self, &joint, ticks)) {
         return SAMPLE_UNITS;
     }
     jcal_body_probe_add(self, ticks[0], ticks[1]);

@@ -16,7 +16,7 @@ from .native_hub import PacketCounts, Packets, as_dict
 
 SENSORS, COLUMNS, EVENT_COLUMNS, FLASH_BYTES = 16, 19, 5, 2 * 4096  # of tools/native/batch_body.h
 EVENTS = ("ready", "left_ready", "moved", "not_one", "lag_found", "sensor_bad", "sensor_fine", "sensor_lost", "sensor_back",
-          "remembered", "confirmed", "dropped", "kept")
+          "remembered", "confirmed", "dropped", "kept", "exchanged")
 EVENT_ROOM = 20000
 
 

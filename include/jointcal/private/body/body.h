@@ -16,6 +16,7 @@ typedef struct {
     jcal_body_pace_t pace;
     jcal_body_round_t round;
     jcal_body_probe_t probe;
+    jcal_body_exchange_t exchange;
     jcal_body_exam_t exam;
     jcal_body_restore_t restore;
     jcal_body_events_t events;

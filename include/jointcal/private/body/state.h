@@ -106,8 +106,22 @@ typedef struct {
     uint32_t since;   ///< Round in which it began.
     uint32_t looked;  ///< Round in which it was last looked at.
     uint8_t joint;    ///< 255: nobody's.
+    uint8_t other;    ///< Sensor that is looked at instead of the joint's lower one; 255: none.
+    bool was_other;   ///< It was so the last time: turns alternate.
     bool due;         ///< A slice of work may be due.
 } jcal_body_probe_t;
+
+#define JCAL_BODY_HALF_NONE 0u
+#define JCAL_BODY_HALF_FOUND 1u
+#define JCAL_BODY_HALF_TRIED 2u
+
+/// Sensors that sit on each other's segment.
+typedef struct {
+    uint16_t next;             ///< Pair of joints that is tried next.
+    uint8_t half;              ///< One way round fits: then the other is tried. JCAL_BODY_HALF_ ...
+    uint8_t joint, other;      ///< ... of this joint's upper sensor and this sensor.
+    uint8_t sensor1, sensor2;  ///< What was told last; alike: nothing.
+} jcal_body_exchange_t;
 
 /// Kept calibrations that are looked at, and what is worth a write.
 typedef struct {

@@ -68,7 +68,7 @@ class Outcome:
     wrong_counts: int
     unaccounted: int
     events: Counter
-    told: list[tuple[float, str, int, int]]  # s, event, joint, sensor
+    told: list[tuple[float, str, int, int, int]]  # s, event, joint, sensor, what
     most_units: int
     mean_units: float
     missed: float  # share of common times, mean of sensors
@@ -138,13 +138,13 @@ def measure_case(job: tuple[int, int, float]) -> Outcome:
         case, person, [judge_joint(rec, j, found, wires) for j in range(len(rec.joints))], case.spared(rec.joints),
         wrong, sum(c["samples"] + c["missed"] != rounds for c in counters) + found.status["events_dropped"],
         Counter(EVENTS[int(e[0])] for e in found.events),
-        [(1e-6 * (float(t) - ORIGIN_US), EVENTS[int(e[0])], int(e[1]), int(e[2])) for t, e in zip(found.event_us, found.events, strict=True)],
+        [(1e-6 * (float(t) - ORIGIN_US), EVENTS[int(e[0])], int(e[1]), int(e[2]), int(e[3])) for t, e in zip(found.event_us, found.events, strict=True)],
         found.most_units, found.status["units"] / found.steps, float(np.mean([c["missed"] / rounds for c in counters])), sum(c["overruns"] for c in counters))
 
 
 def told_after(o: Outcome, event: str, of: int) -> float:
     """s; `of`: joint or sensor."""
-    return min((t for t, name, joint, sensor in o.told if name == event and of in (joint, sensor)), default=np.inf)
+    return min((t for t, name, joint, sensor, _ in o.told if name == event and of in (joint, sensor)), default=np.inf)
 
 
 def seconds(value: float) -> str:
