@@ -18,11 +18,12 @@ from .soak import ORIGIN_US, Sent, Wire, expected, send
 TITLE = "Body: sixteen sensors and fifteen joints"
 LONG_S, QUICK_S = 600.0, 150.0
 PERSONS = tuple(range(21, 29))  # persons 1 to 3 and 11 to 13 were looked at while this was made
+STRANGERS = tuple(range(41, 53))  # whose sensors are exchanged; 21 to 28 and 31 to 34 were looked at while naming was made
 UNITS, EVERY = 80, 25  # units of a step of 10 ms; steps from row to row
 BITS, MOST = 16, 4
 DRIFT_PPM, BASE_S = 100.0, (0.003, 0.103)
 WINDOW_S = 10.0
-ANGLE_MOST_DEG, COVERED_MIN, LAG_MIN, READY_MIN = 3.0, 0.95, 0.95, 0.9
+ANGLE_MOST_DEG, COVERED_MIN, LAG_MIN, READY_MIN, NAMED_MIN = 3.0, 0.95, 0.95, 0.9, 0.5
 EXCHANGED = (5, 8)  # left and right forearm
 FAULTY, FAULT = 11, 1.10  # left shank: its accelerometer reads so many times too much
 
@@ -159,7 +160,9 @@ def covered(joints: list[Joint], at_end: bool) -> tuple[int, int]:
 def measure(settings: Settings, report: Report) -> None:
     duration_s = QUICK_S if settings.quick else LONG_S
     persons = PERSONS[:1] if settings.quick else PERSONS
-    jobs = [(k, person, duration_s) for k in range(len(CASES)) for person in (persons if k == 0 else persons[: max(1, len(persons) // 2)])]
+    strangers = STRANGERS[:1] if settings.quick else STRANGERS
+    chosen = {0: persons, 1: strangers, 2: persons[: max(1, len(persons) // 2)]}
+    jobs = [(k, person, duration_s) for k in range(len(CASES)) for person in chosen[k]]
     outcomes = run_jobs(measure_case, jobs, "persons", settings)
     report.text(f"{len(persons)} simulated persons for {duration_s:g} s, {len(NAMES)} sensors and {len(NAMES) - 1} hinges each (simulate_body.py): every joint bends and swells in a time of its own, "
                 f"under skin of 1.2 deg rms. Sensors send packets of 1 to {MOST} readings at {RATE_HZ:g} Hz, with clocks of up to {DRIFT_PPM:g} ppm, late by {1e3 * BASE_S[0]:g} to "
@@ -184,14 +187,15 @@ def measure(settings: Settings, report: Report) -> None:
                    number(median([j.lag_bound_ms for j in joints if np.isfinite(j.lag_off_ms)] or [np.nan]), 1),
                    "{}, {}".format(*(number(f([j.angle_deg for j in joints if np.isfinite(j.angle_deg)] or [np.nan])) for f in (np.median, np.max)))]])
     bad = [o for o in outcomes if o.case.name != CASES[0].name]
-    report.table(["case", "person", "joints of the sensors", "ever ready", "told: not one joint, s", "told: sensor bad, s", "other joints ready at the end", "others told of"],
+    report.table(["case", "person", "joints of the sensors", "ever ready", "told: not one joint, s", "told: exchanged, s", "told: sensor bad, s", "other joints ready at the end", "others told of"],
                  [[o.case.name, o.person, len(o.joints) - len(o.spared), sum(np.isfinite(j.ready_s) for k, j in enumerate(o.joints) if k not in o.spared),
                    ", ".join(seconds(told_after(o, "not_one", k)) for k in range(len(o.joints)) if k not in o.spared),
-                   seconds(told_after(o, "sensor_bad", FAULTY)), f"{sum(o.joints[k].at_end is not None for k in o.spared)} of {len(o.spared)}", wrongly_told(o)] for o in bad])
+                   ", ".join(f"{t:.0f}" for t, pair in exchanges(o) if pair == set(EXCHANGED)) or "never", seconds(told_after(o, "sensor_bad", FAULTY)), f"{sum(o.joints[k].at_end is not None for k in o.spared)} of {len(o.spared)}", wrongly_told(o)] for o in bad])
     report.require_none("counters that differ from what was injected", sum(o.wrong_counts for o in outcomes), 10 * len(NAMES) * len(outcomes))
     report.require_none("sensors whose common times are not all counted, events dropped", sum(o.unaccounted for o in outcomes), len(NAMES) * len(outcomes))
     report.require_most("units of a step", max(o.most_units for o in outcomes), UNITS)
     report.require_none("joints ever ready for axes beyond 3 deg", sum(j.false_rows > 0 for o in outcomes for k, j in enumerate(o.joints) if k in o.spared), len(joints))
+    report.require_none("exchanges told of sensors that are not", sum(pair != (set(EXCHANGED) if o.case.exchanged else set()) for o in outcomes for _, pair in exchanges(o)), len(outcomes))
     report.require_none("joints of exchanged sensors ever ready", sum(np.isfinite(j.ready_s) for o in bad if o.case.exchanged for k, j in enumerate(o.joints) if k not in o.spared),
                         sum(len(o.joints) - len(o.spared) for o in bad if o.case.exchanged))
     report.require_none("good joints told to be none, good sensors told to be bad", sum(wrongly_told(o) for o in outcomes), len(outcomes) * (2 * len(NAMES) - 1))
@@ -199,6 +203,8 @@ def measure(settings: Settings, report: Report) -> None:
         return  # the rest is of ten minutes
     report.require_share("axes within their bound when first ready", first[0], first[1], COVERED_MIN)
     report.require_share("axes within their bound at the end", end[0], end[1], COVERED_MIN)
+    strange = [o for o in bad if o.case.exchanged]
+    report.require_share("exchanged sensors named within ten minutes", sum(bool(exchanges(o)) for o in strange), len(strange), NAMED_MIN)
     report.require_none("joints never ready", len(joints) - len(ready), len(joints))
     report.require_share("joints ready at the end", sum(j.at_end is not None for j in joints), len(joints), READY_MIN)
     report.require_share("lags within their bound at the end", sum(j.lag_off_ms <= j.lag_bound_ms for j in joints), len(joints), LAG_MIN)
@@ -206,8 +212,13 @@ def measure(settings: Settings, report: Report) -> None:
     report.require_none("faulty sensors not named", sum(not np.isfinite(told_after(o, "sensor_bad", FAULTY)) for o in bad if o.case.faulty), sum(o.case.faulty for o in bad))
 
 
+def exchanges(o: Outcome) -> list[tuple[float, set[int]]]:
+    """When, s, and which two sensors were told to be exchanged."""
+    return [(t, {sensor, what}) for t, name, _, sensor, what in o.told if name == "exchanged"]
+
+
 def wrongly_told(o: Outcome) -> int:
     """Joints that are one and told to be none, sensors that are fine and told to be bad."""
-    joints = {joint for _, name, joint, _ in o.told if name == "not_one"} & set(o.spared)
-    sensors = {sensor for _, name, _, sensor in o.told if name == "sensor_bad"} - ({FAULTY} if o.case.faulty else set())
+    joints = {joint for _, name, joint, _, _ in o.told if name == "not_one"} & set(o.spared)
+    sensors = {sensor for _, name, _, sensor, _ in o.told if name == "sensor_bad"} - ({FAULTY} if o.case.faulty else set())
     return len(joints) + len(sensors)
