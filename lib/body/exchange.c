@@ -152,3 +152,20 @@ bool jcal_body_exchange_explains(const jcal_body_t *self, unsigned joint)
            ((spec->proximal == exchange->sensor1) || (spec->distal == exchange->sensor1) ||
             (spec->proximal == exchange->sensor2) || (spec->distal == exchange->sensor2));
 }
+
+static bool shares_sensor(const jcal_body_joint_spec_t *a, const jcal_body_joint_spec_t *b)
+{
+    return (a->proximal == b->distal) || (a->distal == b->proximal) || (a->proximal == b->proximal);
+}
+
+bool jcal_body_exchange_doubts(const jcal_body_t *self, unsigned joint)
+{
+    for (unsigned k = 0u; k < self->table.joint_count; ++k) {
+        if ((k != joint) && self->table.joint_states[k].not_one &&
+            shares_sensor(&self->table.joints[joint], &self->table.joints[k]) &&
+            !jcal_body_exchange_explains(self, k)) {
+            return true;
+        }
+    }
+    return false;
+}

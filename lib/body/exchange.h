@@ -20,6 +20,10 @@ bool jcal_body_exchange_next(jcal_body_t *self, unsigned *joint, unsigned *other
 /// The upper sensor of a joint and `other` belong together: an exchange is told.
 void jcal_body_exchange_found(jcal_body_t *self, unsigned joint, unsigned other);
 
+/// True if a joint is not to be believed because one that shares a sensor with it is told to be none, and no exchange explains that: the sensor
+/// that they share may be the one that sits elsewhere.
+bool jcal_body_exchange_doubts(const jcal_body_t *self, unsigned joint);
+
 /// True if an exchange was told that explains why a joint is none, and still does.
 bool jcal_body_exchange_explains(const jcal_body_t *self, unsigned joint);
 

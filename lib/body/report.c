@@ -4,6 +4,7 @@
 #include "body/report.h"
 
 #include "body/engine.h"
+#include "body/exchange.h"
 #include "body/restore.h"
 #include "body/trust.h"
 
@@ -18,9 +19,9 @@ void jcal_body_report(const jcal_body_t *self, unsigned joint, jcal_body_joint_r
     if (out->head.t_us != 0u) {
         out->head.t_us += self->round.origin_us;
     }
-    const jcal_trust_t trust = {self->table.sensor_states[spec->proximal].bad,
-                                self->table.sensor_states[spec->distal].bad, state->not_one,
-                                jcal_body_in_step(self, joint)};
+    const jcal_trust_t trust = {
+        self->table.sensor_states[spec->proximal].bad, self->table.sensor_states[spec->distal].bad,
+        state->not_one || jcal_body_exchange_doubts(self, joint), jcal_body_in_step(self, joint)};
     jcal_trust(&trust, &out->head);
     out->lag_known = trust.lag_known;
     out->lag_s = state->lag_s;

@@ -6,6 +6,7 @@
 #include "FreeRTOS.h"
 #include "board.h"
 #include "cortex_m.h"
+#include "flash.h"
 #include "hub.h"
 #include "rtos_numbers.h"
 #include "task.h"
@@ -47,8 +48,10 @@ volatile rtos_numbers_t rtos_numbers;
 
 /* --- Interrupts ------------------------------------------------------------------------------------------------------ */
 
+/* The kernel's tick is the hub's clock: the board's own would want the same timer. */
 void board_received(uint8_t byte)
 {
+    hub_time(&hub, (uint64_t)xTaskGetTickCountFromISR() * (1000000u / configTICK_RATE_HZ));
     hub_receive(&hub, byte);
 }
 
@@ -179,7 +182,9 @@ void rtos_failed(void)
 
 int main(void)
 {
+    const jcal_flash_t flash = board_flash();
     hub_init(&hub);
+    hub_set_flash(&hub, &flash, board_flash_is_deaf());
     rtos_numbers.hub_stack = sizeof hub_stack;
     rtos_numbers.beat_stack = sizeof beat_stack;
     hub_task = xTaskCreateStatic(hub_run, "hub", HUB_STACK, 0, HUB_PRIORITY, hub_stack, &hub_memory);

@@ -162,6 +162,17 @@ static void it_is_told_once_and_said_in_words(void)
         "Exchange the sensors of the left hand and the right hand: each seems to sit on the other's segment.", text);
 }
 
+static void a_joint_beside_one_that_is_none_is_doubted_until_that_is_explained(void)
+{
+    jcal_body_event_t event;
+    doubt(WRIST_L);
+    doubt(WRIST_R);
+    TEST_ASSERT_TRUE(jcal_body_exchange_doubts(&body, ELBOW_L));
+    TEST_ASSERT_FALSE(jcal_body_exchange_doubts(&body, SHOULDER_L));
+    TEST_ASSERT_TRUE(find_both(WRIST_L, WRIST_R, &event));
+    TEST_ASSERT_FALSE(jcal_body_exchange_doubts(&body, ELBOW_L)); /* the hands it is, not the forearm */
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -171,6 +182,7 @@ int main(void)
     RUN_TEST(what_the_wrists_say_means_the_forearms_too);
     RUN_TEST(hands_are_told_where_elbows_are_fine);
     RUN_TEST(nothing_is_told_where_neighbours_are_open);
+    RUN_TEST(a_joint_beside_one_that_is_none_is_doubted_until_that_is_explained);
     RUN_TEST(it_is_told_once_and_said_in_words);
     return UNITY_END();
 }
