@@ -99,7 +99,7 @@ def describe(settings: Settings, report: Report) -> None:
     outcomes = run_jobs(measure_one, jobs, "slips", settings)
     report.text(f"**Slips.** {len(persons)} more persons over the same wire for {LONG_S:g} s. From {SLIP_S:g} s on the sensors of head, both hands and right shank are turned by an angle about random lines: "
                 f"five joints of each person slip, ten do not. Asleep: whatever is ready is put to sleep from {MARK_S:g} s on. Motion is time in which both rates together are above {MOTION_RAD_S:g} rad/s. "
-                "Counted are joints that were ready when they slipped; false are `moved` of joints that did not, by hours of joints that were ready.")
+                "Counted are joints that were ready when they slipped; false are `moved` of joints that did not, by hours of joints that were ready; all rows play the same persons.")
     rows = []
     for asleep in (False, True):
         for deg in SLIP_DEG:
