@@ -85,7 +85,7 @@ def make_parser() -> argparse.ArgumentParser:
     parser.add_argument("--no-qmt", action="store_true", help="leave the comparison with qmt out")
     parser.add_argument("--qmt-every", type=float, default=1.0, metavar="S",
                         help="cost: estimate with qmt every S seconds; the requirement is about 1")
-    parser.add_argument("--only", metavar="CLASS[:INDEX]", help="never, bounds: this class or run alone")
+    parser.add_argument("--only", metavar="CLASS[:INDEX]", help="never, bounds: this class or run alone; body: persons or sections")
     parser.add_argument("--slices", type=float, metavar="N", help="slices_per_s of the config (default: the library's)")
     parser.add_argument("--out", type=Path, help="folder of the reports")
     return parser

@@ -139,11 +139,27 @@ static void note_events(whole_t *w, jcal_batch_body_out_t *out)
     }
 }
 
+static void put_to_sleep(whole_t *w, unsigned joints)
+{
+    for (unsigned j = 0; j < joints; j++) {
+        if (!jcal_body_sleeps(&w->body, j)) {
+            (void)jcal_body_sleep(&w->body, j, true); /* rejected while it is not ready */
+        }
+    }
+}
+
 static void step(whole_t *w, const jcal_batch_body_in_t *in, uint64_t now_us, jcal_batch_body_out_t *out)
 {
     jcal_body_status_t before;
     jcal_body_status_t after;
+    const uint32_t mark = (uint32_t)in->mark;
     (void)jcal_body_status(&w->body, &before);
+    if (mark > 0u && out->steps == mark) {
+        out->mark_units = before.units;
+    }
+    if (mark > 0u && in->sleeps != 0 && out->steps >= mark) {
+        put_to_sleep(w, (unsigned)in->joint_count);
+    }
     const jcal_status_t status = jcal_body_step(&w->body, now_us, (unsigned)in->units);
     (void)jcal_body_status(&w->body, &after);
     const uint32_t used = (uint32_t)(after.units - before.units);

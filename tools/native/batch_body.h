@@ -36,6 +36,8 @@ typedef struct {
     const uint64_t *serials; /* of each sensor; null: none is known */
     uint8_t *flash;          /* two slots, which outlast a run; null: nothing is kept */
     int32_t keeps;           /* at the end all that is ready is written */
+    int32_t mark;            /* step at which units are noted; 0: never */
+    int32_t sleeps;          /* from that step on whatever is ready is put to sleep */
 } jcal_batch_body_in_t;
 
 typedef struct {
@@ -52,6 +54,7 @@ typedef struct {
     uint32_t full_steps; /* steps that may have left something */
     uint32_t steps;
     uint32_t state_bytes; /* here, of everything but packets that wait */
+    uint64_t mark_units;  /* until step `mark` */
     jcal_body_status_t status;
     jcal_body_sensor_result_t sensors[JCAL_BATCH_BODY_SENSORS];
 } jcal_batch_body_out_t;

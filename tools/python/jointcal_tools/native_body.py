@@ -26,7 +26,8 @@ class Input(ctypes.Structure):
     _fields_ = [("sensor_count", ctypes.c_int32), ("joint_count", ctypes.c_int32), ("proximal", ctypes.c_void_p), ("distal", ctypes.c_void_p),
                 ("si", ctypes.c_void_p * SENSORS), *((name, ctypes.c_void_p) for name in ("which", "arrival_us", "counter", "readings", "at")),
                 ("count", ctypes.c_size_t), ("counter_bits", ctypes.c_int32), ("units", ctypes.c_int32), ("every", ctypes.c_int32),
-                ("serials", ctypes.c_void_p), ("flash", ctypes.c_void_p), ("keeps", ctypes.c_int32)]
+                ("serials", ctypes.c_void_p), ("flash", ctypes.c_void_p), ("keeps", ctypes.c_int32), ("mark", ctypes.c_int32),
+                ("sleeps", ctypes.c_int32)]
 
 
 class Status(ctypes.Structure):
@@ -49,7 +50,7 @@ class Output(ctypes.Structure):
 
     _fields_ = [("row_us", ctypes.c_void_p), ("rows", ctypes.c_void_p), ("time_us", ctypes.c_void_p), ("room", ctypes.c_size_t), ("row_count", ctypes.c_size_t),
                 ("event_us", ctypes.c_void_p), ("events", ctypes.c_void_p), ("event_room", ctypes.c_size_t), ("event_count", ctypes.c_size_t),
-                *((name, ctypes.c_uint32) for name in ("most_units", "full_steps", "steps", "state_bytes")),
+                *((name, ctypes.c_uint32) for name in ("most_units", "full_steps", "steps", "state_bytes")), ("mark_units", ctypes.c_uint64),
                 ("status", Status), ("sensors", SensorResult * SENSORS)]
 
 
@@ -65,13 +66,15 @@ class Found:
     most_units: int
     full_steps: int
     steps: int
+    mark_units: int  # until step `mark`
 
 
 def run(joints: list[tuple[int, int]], values: list[np.ndarray], packets: Packets, counter_bits: int, units: int, every: int = 25,
-        serials: list[int] | None = None, flash: np.ndarray | None = None, keeps: bool = False) -> Found:
+        serials: list[int] | None = None, flash: np.ndarray | None = None, keeps: bool = False, mark: int = 0, sleeps: bool = False) -> Found:
     """`joints`: proximal and distal sensor; `values`: (N, 6) of each sensor; a row every `every` hundredths of a second.
 
     `flash`: FLASH_BYTES that outlast the run, with the `serials` of all sensors; `keeps`: at the end what is ready is written to it.
+    `mark`: step at which units are noted, and from which on, if `sleeps`, whatever is ready is put to sleep.
     """
     given, out, keep = Input(), Output(), []
 
@@ -86,6 +89,7 @@ def run(joints: list[tuple[int, int]], values: list[np.ndarray], packets: Packet
     for name, kind in (("which", np.uint8), ("arrival_us", np.uint64), ("counter", np.uint32), ("readings", np.uint8), ("at", np.uint32)):
         setattr(given, name, pointer(getattr(packets, name), kind))
     given.count, given.counter_bits, given.units, given.every = len(packets.which), counter_bits, units, every
+    given.mark, given.sleeps = mark, int(sleeps)
     if serials is not None and flash is not None:
         given.serials, given.flash, given.keeps = pointer(np.array(serials), np.uint64), flash.ctypes.data, int(keeps)
     room = int((int(packets.arrival_us[-1]) - int(packets.arrival_us[0])) / (10000 * every)) + 300
@@ -101,4 +105,4 @@ def run(joints: list[tuple[int, int]], values: list[np.ndarray], packets: Packet
                | {"too_late": out.sensors[s].late}
                for s in range(len(values))]
     return Found(row_us[:n], time_us[:n], rows[:n].astype(float), event_us[:count], events[:count].astype(float), as_dict(out.status), sensors,
-                 out.most_units, out.full_steps, out.steps)
+                 out.most_units, out.full_steps, out.steps, out.mark_units)

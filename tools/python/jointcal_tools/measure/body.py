@@ -158,6 +158,16 @@ def covered(joints: list[Joint], at_end: bool) -> tuple[int, int]:
 
 
 def measure(settings: Settings, report: Report) -> None:
+    if settings.only in (None, "persons"):
+        measure_persons(settings, report)
+    if settings.only in (None, "sections"):
+        from . import body_recorded, body_slips  # which ask this module
+
+        body_recorded.describe(report)
+        body_slips.describe(settings, report)
+
+
+def measure_persons(settings: Settings, report: Report) -> None:
     duration_s = QUICK_S if settings.quick else LONG_S
     persons = PERSONS[:1] if settings.quick else PERSONS
     strangers = STRANGERS[:1] if settings.quick else STRANGERS

@@ -24,7 +24,7 @@ class Settings:
     engines: tuple[str, ...] = ("stream", "window")
     with_qmt: bool = True
     qmt_every_s: float = 1.0
-    only: str | None = None  # `never`, `bounds`: CLASS or CLASS:INDEX
+    only: str | None = None  # `never`, `bounds`: CLASS or CLASS:INDEX; `body`: persons or sections
 
     def count(self, full: int, quick: int) -> int:
         """How many runs to make where a full measurement makes `full` and a quick one `quick`."""
