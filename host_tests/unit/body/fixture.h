@@ -45,8 +45,8 @@ static inline void body_fill(body_fixture_t *f, unsigned sensors)
         f->joints[j] = joint;
         TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_functional_init(&f->hinges[j], &settings));
     }
-    const jcal_body_table_t table = {f->sensors,      f->sensor_states, sensors, f->joints,
-                                     f->joint_states, sensors - 1u,     &f->shared, &f->health, NULL};
+    const jcal_body_table_t table = {f->sensors,   f->sensor_states, sensors,    f->joints, f->joint_states,
+                                     sensors - 1u, &f->shared,       &f->health, NULL};
     f->table = table;
 }
 

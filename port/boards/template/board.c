@@ -18,7 +18,9 @@ static void uart(void)
 #define INTERRUPTS (UART_INTERRUPT + 1u)
 extern const vector_t board_vectors[SYSTEM_VECTORS + INTERRUPTS];
 __attribute__((section(".vectors"), used)) const vector_t board_vectors[SYSTEM_VECTORS + INTERRUPTS] = {
-    SYSTEM_VECTOR_TABLE(start_fault), [SYSTEM_VECTORS + UART_INTERRUPT] = uart};
+    SYSTEM_VECTOR_TABLE(
+        start_fault), /* TO FILL IN: the handler of the processor's own timer, if board_now_us uses it (ticked of systick.h) */
+    [SYSTEM_VECTORS + UART_INTERRUPT] = uart};
 
 void board_init(void)
 {

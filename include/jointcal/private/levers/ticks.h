@@ -16,7 +16,7 @@ typedef struct {
     float rate2;       ///< Both squared rates, smoothed, (rad/s)^2.
     float
         gravity_off;  ///< How far the specific forces' means are from gravity, m/s^2; the larger of both sensors. While one of them has
-        ///< just begun anew, it is held: its mean is of few seconds.
+    ///< just begun anew, it is held: its mean is of few seconds.
     uint32_t count;  ///< Pairs of ticks.
     uint32_t epoch1, epoch2;
     bool has_tick;
