@@ -265,7 +265,8 @@ class CommandLine(Body):
     def test_wrong_options(self):
         joint = ("--joint", "knee:hinge:1:2")
         for part, options in (("which joints has it", (LEG,)), ("--loss is for a whole body", ("--loss", "5")),
-                              ("not NAME:KIND:PROXIMAL:DISTAL", ("--joint", "knee:hinge:1")), ("hinge, ball", ("--joint", "knee:saddle:1:2")),
+                              ("not NAME:KIND:PROXIMAL:DISTAL", ("--joint", "knee:hinge:1")), ("1 to 16 letters", ("--joint", "a-very-very-very-long-name:hinge:1:2")),
+                              ("between two sensors", ("--joint", "knee:hinge:2:2")), ("hinge, ball", ("--joint", "knee:saddle:1:2")),
                               ("two joints 'knee'", joint + joint), ("there is no sensor '4'", ("--joint", "knee:hinge:1:4")),
                               ("--names: 2 values for 3 sensors", (*joint, "--names", "a,b")), ("stands there twice", (*joint, "--names", "a,a,b")),
                               ("is no name", (*joint, "--names", 'a,b,"c')), ("--loss: 120 is not from 0 to 100", (*joint, "--loss", "120")),

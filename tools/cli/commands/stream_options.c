@@ -112,11 +112,18 @@ static void take_joint(struct argp_state *state, const char *text, stream_body_o
     for (size_t k = 0; k < 4; k++) {
         const char *end = part_end(at, ':');
         if (!take_name(at, end, parts[k]) || (*end == '\0') != (k == 3)) {
-            argp_error(state, "--joint: '%s' is not NAME:KIND:PROXIMAL:DISTAL, such as knee:hinge:2:3", text);
+            argp_error(
+                state,
+                "--joint: '%s' is not NAME:KIND:PROXIMAL:DISTAL, such as knee:hinge:2:3; a name has 1 to %u letters, "
+                "digits, '-' and '_'",
+                text, MESSAGE_NAME_BYTES);
         }
         at = (*end == '\0') ? end : end + 1;
     }
     joint->kind = (uint8_t)option_one_of_three(state, "joint", kind, kinds);
+    if (strcmp(joint->ends[0], joint->ends[1]) == 0) {
+        argp_error(state, "--joint: '%s' is between two sensors, and '%s' is one", joint->name, joint->ends[0]);
+    }
     for (unsigned k = 0; k < options->joint_count; k++) {
         if (strcmp(options->joints[k].name, joint->name) == 0) {
             argp_error(state, "--joint: there are two joints '%s'", joint->name);
