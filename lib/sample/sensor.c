@@ -178,7 +178,7 @@ static void remember_beyond(jcal_gate_sensor_t *self, const jcal_gate_config_t *
 /// Most readings are far below the extreme, and then it need not be worked out what was held. None is beyond the limit.
 static inline void remember_one(jcal_gate_sensor_t *self, unsigned i, float now, float per)
 {
-    if ((uint32_t)jcal_min(fabsf(now) * (FAR_BELOW * per), EXTREME_UNITS) >= self->extreme[i]) {
+    if ((fabsf(now) * (FAR_BELOW * per)) >= (float)self->extreme[i]) {
         raise_extreme(self, i, now, per);
     }
     self->last[i] = now;
