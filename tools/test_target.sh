@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Builds and tests for Cortex-M processors in QEMU: tools/test_target.sh [all | quick | PRESET...]
 #
-# all (the default): the unit tests on m4f, those without long motions on m3, m7 and m33, same bits on host and targets, the
+# all (the default): the unit tests on m4f, those without long motions on m3, some on m7 and m33, same bits on host and targets, the
 # hub in QEMU, the budget. quick: m4f, hub and budget. PRESET: its tests only; m0 is one, too. These are parts of tools/test.sh,
 # which says the rest.
 set -euo pipefail
