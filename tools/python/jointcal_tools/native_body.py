@@ -66,7 +66,7 @@ class Found:
     most_units: int
     full_steps: int
     steps: int
-    mark_units: int  # until step `mark`
+    mark_units: int = 0  # until step `mark`
 
 
 def run(joints: list[tuple[int, int]], values: list[np.ndarray], packets: Packets, counter_bits: int, units: int, every: int = 25,

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from .. import target
-from ..native_body import COLUMNS, EVENT_COLUMNS, EVENTS, Found, SensorResult, Status
+from ..native_body import EVENT_COLUMNS, EVENTS, Found, SensorResult, Status
 from ..native_hub import READY, as_dict
 from ..simulate_body import NAMES, PARENTS, BodyRecording, simulate_body
 from .body import BASE_S, BITS, DRIFT_PPM, MOST, UNITS, judge_joint, packets_of
@@ -24,7 +24,8 @@ MOST_S = 1500.0  # an emulator's time
 BUSIEST, MEAN, RAM, STACK = 160_000, 60_000, 65_536, 1_536  # DESIGN: budgets
 MINUTE = 6000  # steps
 TOOLS = ("qemu-system-arm", "arm-none-eabi-gcc")
-ROW, EVENT = (np.dtype([("now_us", "<u8"), ("t_us", "<u8"), ("values", "<u4", COLUMNS)]),
+ROW_COLUMNS = 16  # the first ones of native_body, as replay_person.h writes them
+ROW, EVENT = (np.dtype([("now_us", "<u8"), ("t_us", "<u8"), ("values", "<u4", ROW_COLUMNS)]),
               np.dtype([("t_us", "<u8"), ("values", "<u4", EVENT_COLUMNS), ("zero", "<u4")]))
 
 
