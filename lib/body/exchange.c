@@ -35,15 +35,14 @@ bool jcal_body_exchange_next(jcal_body_t *self, unsigned *joint, unsigned *other
 {
     const unsigned joints = self->table.joint_count;
     const unsigned pairs = joints * joints;
-    if (self->exchange.half == JCAL_BODY_HALF_FOUND) { /* the other way round, at once */
+    if (self->exchange.half == JCAL_BODY_HALF_FOUND) { /* the other way round comes first */
         self->exchange.half = JCAL_BODY_HALF_TRIED;
         *joint = self->exchange.joint;
         *other = self->exchange.other;
         return true;
     }
     self->exchange.half = JCAL_BODY_HALF_NONE;
-    for (unsigned n = 0u; n < joints;
-         ++n) { /* joints from the one at the cursor on, and after all others its own first pairs */
+    for (unsigned n = 0u; n < joints; ++n) { /* joints from the one at the cursor on */
         const unsigned j = ((self->exchange.next / joints) + n) % joints;
         if (!self->table.joint_states[j].not_one) {
             continue;
@@ -61,8 +60,13 @@ bool jcal_body_exchange_next(jcal_body_t *self, unsigned *joint, unsigned *other
     return false;
 }
 
-/// What is known of the joints next to one.
-typedef enum { FINE, NONE, OPEN } neighbour_t;
+/// What is known of the joints next to one, the worst last.
+typedef enum { FINE, OPEN, NONE } neighbour_t;
+
+static neighbour_t worse(neighbour_t a, neighbour_t b)
+{
+    return (a > b) ? a : b;
+}
 
 static neighbour_t neighbour(const jcal_body_t *self, unsigned joint)
 {
@@ -79,8 +83,7 @@ static neighbour_t below(const jcal_body_t *self, unsigned joint)
     neighbour_t all = FINE;
     for (unsigned k = 0u; k < self->table.joint_count; ++k) {
         if (self->table.joints[k].proximal == self->table.joints[joint].distal) {
-            const neighbour_t one = neighbour(self, k);
-            all = ((one == NONE) || (all == FINE)) ? one : all;
+            all = worse(all, neighbour(self, k));
         }
     }
     return all;
@@ -90,11 +93,6 @@ static neighbour_t above(const jcal_body_t *self, unsigned joint)
 {
     const unsigned j = self->table.sensor_states[self->table.joints[joint].proximal].joint;
     return (j == JCAL_BODY_NONE) ? FINE : neighbour(self, j);
-}
-
-static neighbour_t worse(neighbour_t a, neighbour_t b)
-{
-    return ((a == NONE) || (b == NONE)) ? NONE : (((a == OPEN) || (b == OPEN)) ? OPEN : FINE);
 }
 
 /// No joint of a sensor that sits on another segment is believed, whatever its estimator says: arms that move alike can make one ready.

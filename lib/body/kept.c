@@ -3,6 +3,7 @@
 /// What a body keeps: when something is worth a write, and the write. See body.h; docs/METHOD_HUB.md, sections 2 and 3.
 #include "body/engine.h"
 #include "body/events.h"
+#include "body/line.h"
 #include "body/report.h"
 #include "body/restore.h"
 
@@ -54,7 +55,7 @@ bool jcal_body_keep_due(jcal_body_t *self)
         return false;
     }
     jcal_body_restore_t *const restore = &self->restore;
-    if ((self->round.number - restore->checked) >= (CHECK_US / self->pace.period_us)) {
+    if ((self->round.number - restore->checked) >= jcal_body_rounds(&self->pace, CHECK_US)) {
         const unsigned j = restore->next_check % self->table.joint_count;
         const uint32_t bit = UINT32_C(1) << j;
         restore->checked = self->round.number;

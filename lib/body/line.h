@@ -31,4 +31,10 @@ jcal_imu_t jcal_body_line_read(jcal_body_line_t *self, const jcal_body_pace_t *p
 /// Number n was not told of.
 void jcal_body_line_miss(jcal_body_line_t *self, const jcal_body_pace_t *pace, uint32_t n);
 
+/// Rounds in a time, us, rounded down.
+static inline uint32_t jcal_body_rounds(const jcal_body_pace_t *pace, uint32_t time_us)
+{
+    return time_us / pace->period_us;
+}
+
 #endif /* JCAL_BODY_LINE_H */

@@ -5,6 +5,7 @@
 
 #include "body/events.h"
 #include "body/exchange.h"
+#include "body/line.h"
 #include "body/restore.h"
 #include "body/tree.h"
 
@@ -26,11 +27,6 @@
 
 /// A lag that was known and is off by more is not known any more, s: what engines keep what they learnt with.
 #define DENIED_S 0.02f
-
-static uint32_t rounds_of(const jcal_body_t *self, uint32_t time_us)
-{
-    return time_us / self->pace.period_us;
-}
 
 /// True if joint `a` is to be looked at before joint `b`: unknown ones first, then longest waiting.
 static bool is_before(const jcal_body_joint_t *a, const jcal_body_joint_t *b)
@@ -86,7 +82,7 @@ static void choose(jcal_body_t *self)
         return;
     }
     self->probe.was_other = false;
-    const bool waits = (self->round.number - probe->since) >= rounds_of(self, AGAIN_US);
+    const bool waits = (self->round.number - probe->since) >= jcal_body_rounds(&self->pace, AGAIN_US);
     if ((waits || !self->table.joint_states[joint].lag_known) && (jcal_lag_init(&self->table.shared->lag) == JCAL_OK)) {
         probe->joint = (uint8_t)joint;
         probe->since = self->round.number;
@@ -155,7 +151,8 @@ static void found(jcal_body_t *self, const jcal_lag_result_t *result)
 bool jcal_body_probe_look(jcal_body_t *self)
 {
     jcal_body_probe_t *const probe = &self->probe;
-    if ((self->table.shared == NULL) || ((self->round.number - probe->looked) < rounds_of(self, LOOK_US))) {
+    if ((self->table.shared == NULL) ||
+        ((self->round.number - probe->looked) < jcal_body_rounds(&self->pace, LOOK_US))) {
         return false;
     }
     probe->looked = self->round.number;
@@ -166,14 +163,14 @@ bool jcal_body_probe_look(jcal_body_t *self)
     jcal_lag_result_t result;
     (void)jcal_lag_get(&self->table.shared->lag, &result);
     const uint32_t since = self->round.number - probe->since;
-    const bool is_still =
-        (since >= rounds_of(self, STILL_US)) && (result.taken_s == 0.0f) && (result.motion_s < MOTION_MIN_S);
+    const bool is_still = (since >= jcal_body_rounds(&self->pace, STILL_US)) && (result.taken_s == 0.0f) &&
+                          (result.motion_s < MOTION_MIN_S);
     if (result.lag_known && (probe->other != JCAL_BODY_NONE)) {
         jcal_body_exchange_found(self, probe->joint, probe->other);
         leave(self);
     } else if (result.lag_known) {
         found(self, &result);
-    } else if (is_still || (since >= rounds_of(self, PATIENCE_US))) {
+    } else if (is_still || (since >= jcal_body_rounds(&self->pace, PATIENCE_US))) {
         if (probe->other == JCAL_BODY_NONE) {
             self->table.joint_states[probe->joint].no_lag =
                 (result.motion_s >= MOTION_DENY_S) && (result.left >= LEFT_DENY);

@@ -5,6 +5,7 @@
 
 #include "body/engine.h"
 #include "body/events.h"
+#include "body/line.h"
 #include "body/tree.h"
 #include "math/scalar.h"
 
@@ -22,11 +23,6 @@
 
 /// A radio that connects anew may be later by so much, s: a third of a long connection interval of 30 ms.
 #define LAG_ANEW_S 0.01f
-
-static uint32_t rounds_of(const jcal_body_t *self, uint32_t time_us)
-{
-    return time_us / self->pace.period_us;
-}
 
 static jcal_kept_wanted_t wanted_of(const jcal_body_t *self, unsigned j)
 {
@@ -181,8 +177,9 @@ static void decide(jcal_body_t *self, unsigned place)
     (void)jcal_remember_get(remember, &result);
     state->kept_reason = (uint8_t)result.reason;
     const uint32_t since = self->round.number - restore->since[place];
-    const bool turn_ends = since >= rounds_of(self, TURN_US);
-    const bool is_still = (turn_ends && (result.motion_s < STILL_S)) || (since >= rounds_of(self, LONG_US));
+    const bool turn_ends = since >= jcal_body_rounds(&self->pace, TURN_US);
+    const bool is_still =
+        (turn_ends && (result.motion_s < STILL_S)) || (since >= jcal_body_rounds(&self->pace, LONG_US));
     if (result.state == JCAL_REMEMBER_CONFIRMED) {
         confirm(self, j, remember, &result);
     } else if (result.state == JCAL_REMEMBER_DROPPED) {
@@ -240,7 +237,7 @@ static bool step_places(jcal_body_t *self)
     }
     if (!is_used) {
         restore->open = false;
-        restore->rest = self->round.number + rounds_of(self, REST_US);
+        restore->rest = self->round.number + jcal_body_rounds(&self->pace, REST_US);
     }
     return false;
 }
