@@ -112,6 +112,16 @@ static inline bool is_flash(uintptr_t address)
     return (address >= FLASH_SLOTS) && (address < (FLASH_SLOTS + SIMULATED_BYTES));
 }
 
+/* A byte of flash, which must not be read while the controller works at it. */
+static inline uint8_t read_flash(uintptr_t address)
+{
+    TEST_ASSERT_TRUE(is_flash(address));
+    if (chip.doing != NOTHING) {
+        misused("flash read while the controller is busy");
+    }
+    return chip.bytes[address - FLASH_SLOTS];
+}
+
 /* A part that comes from the factory, and whatever the test's controller has besides. */
 static inline void new_chip(void)
 {

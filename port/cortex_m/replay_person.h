@@ -7,6 +7,7 @@
 #ifndef REPLAY_PERSON_H
 #define REPLAY_PERSON_H
 
+#include "body_row.h"
 #include "jointcal/body.h"
 
 #include <stdio.h>
@@ -93,10 +94,9 @@ static jcal_status_t engine_get(const whole_person_t *self, result_t *out)
 }
 
 #ifdef REPLAY_ROWS
-/* Columns as tools/native/batch_body.h has them. */
 typedef struct {
     uint64_t now_us, t_us;
-    float values[16];
+    float values[BODY_ROW_COLUMNS];
 } person_row_t;
 
 typedef struct {
@@ -134,24 +134,8 @@ static void write_row(unsigned joint, uint64_t now_us)
     (void)jcal_body_joint(&replayed.body, joint, &r);
     (void)jcal_functional_get(&replayed.hinges[joint], &f);
     (void)jcal_body_sensor(&replayed.body, 0u, &first);
-    const float values[16] = {(float)r.head.status,
-                              (float)r.head.reason,
-                              f.for_axes ? 1.0f : 0.0f,
-                              r.lag_known ? 1.0f : 0.0f,
-                              r.lag_s,
-                              r.lag_bound_s,
-                              r.axis1.x,
-                              r.axis1.y,
-                              r.axis1.z,
-                              r.axis2.x,
-                              r.axis2.y,
-                              r.axis2.z,
-                              r.uncertainty1_rad,
-                              r.uncertainty2_rad,
-                              r.flexion_rad,
-                              r.flexion_bound_rad};
     person_row_t row = {now_us, first.t_us, {0.0f}};
-    copy_floats(row.values, values, 16u);
+    body_row(&r, f.for_axes, row.values);
     (void)fwrite(&row, sizeof(row), 1u, person_rows);
 }
 

@@ -9,6 +9,7 @@
 #include "flash.h"
 #include "hub.h"
 #include "rtos_numbers.h"
+#include "send.h"
 #include "task.h"
 
 /* A table must lie at a multiple of its size, rounded up to a power of two [DDI0403, B3.2.5]. */
@@ -86,14 +87,6 @@ static void install_vectors(void)
 
 /* --- Tasks ----------------------------------------------------------------------------------------------------------- */
 
-static void send_what_fits(void)
-{
-    uint8_t byte = 0;
-    while (board_can_send() && hub_send(&hub, &byte)) {
-        board_send(byte);
-    }
-}
-
 /* Until an interrupt has something for us. One that comes between the look and the sleep leaves its notification, which ends the sleep. */
 static void sleep_if_idle(void)
 {
@@ -113,7 +106,7 @@ static void hub_run(void *unused)
     (void)unused;
     for (;;) {
         const bool worked = hub_work(&hub);
-        send_what_fits();
+        send_what_fits(&hub);
         if (!worked) {
             sleep_if_idle();
         }

@@ -2,6 +2,8 @@
 /* Runs a body over arrays of packets. */
 #include "batch_body.h"
 
+#include "body_row.h"
+
 #include <string.h>
 
 #define SLOTS 64u
@@ -96,26 +98,10 @@ static void write_rows(const whole_t *w, const jcal_batch_body_in_t *in, uint64_
         jcal_functional_result_t f;
         (void)jcal_body_joint(&w->body, j, &r);
         (void)jcal_functional_get(&w->hinges[j], &f);
-        const float values[JCAL_BATCH_BODY_COLUMNS] = {(float)r.head.status,
-                                                       (float)r.head.reason,
-                                                       f.for_axes ? 1.0f : 0.0f,
-                                                       r.lag_known ? 1.0f : 0.0f,
-                                                       r.lag_s,
-                                                       r.lag_bound_s,
-                                                       r.axis1.x,
-                                                       r.axis1.y,
-                                                       r.axis1.z,
-                                                       r.axis2.x,
-                                                       r.axis2.y,
-                                                       r.axis2.z,
-                                                       r.uncertainty1_rad,
-                                                       r.uncertainty2_rad,
-                                                       r.flexion_rad,
-                                                       r.flexion_bound_rad,
-                                                       r.has_kept ? 1.0f : 0.0f,
-                                                       (float)r.kept,
-                                                       (float)r.kept_reason};
-        memcpy(row, values, sizeof(values));
+        body_row(&r, f.for_axes, row);
+        row[BODY_ROW_COLUMNS] = r.has_kept ? 1.0f : 0.0f;
+        row[BODY_ROW_COLUMNS + 1] = (float)r.kept;
+        row[BODY_ROW_COLUMNS + 2] = (float)r.kept_reason;
         row += JCAL_BATCH_BODY_COLUMNS;
     }
     jcal_body_sensor_result_t first;

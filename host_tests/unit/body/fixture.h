@@ -55,6 +55,17 @@ static inline void body_begin(body_fixture_t *f)
     TEST_ASSERT_EQUAL_INT(JCAL_OK, jcal_body_init(&f->body, &f->table, &f->config));
 }
 
+/// What a sensor of a hinge reads at t; real sensors do not repeat themselves at rest.
+static inline void body_read_at(const hinge_t *hinge, double t, unsigned sensor, float values[6])
+{
+    hinge_sensor_t s;
+    hinge_sensor(hinge, t, (int)sensor + 1, &s);
+    for (int i = 0; i < 3; ++i) {
+        values[i] = (float)(s.gyr[i] + 1e-3 * sin((1100.0 + 200.0 * sensor) * t + i));
+        values[i + 3] = (float)(s.force[i] + 1e-2 * sin((1700.0 + 200.0 * sensor) * t + i));
+    }
+}
+
 /// A packet of one reading, that arrives at arrival_us.
 static inline void body_send(body_fixture_t *f, unsigned sensor, uint64_t arrival_us, const float values[6])
 {

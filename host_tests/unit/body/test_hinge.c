@@ -27,17 +27,6 @@ void tearDown(void)
 {
 }
 
-/* What a sensor reads at t; real sensors do not repeat themselves at rest. */
-static void read_at(double t, unsigned sensor, float values[6])
-{
-    hinge_sensor_t s;
-    hinge_sensor(&hinge, t, (int)sensor + 1, &s);
-    for (int i = 0; i < 3; ++i) {
-        values[i] = (float)(s.gyr[i] + 1e-3 * sin((1100.0 + 200.0 * sensor) * t + i));
-        values[i + 3] = (float)(s.force[i] + 1e-2 * sin((1700.0 + 200.0 * sensor) * t + i));
-    }
-}
-
 static void note_events(void)
 {
     jcal_body_event_t event;
@@ -54,9 +43,9 @@ static void play(uint32_t k)
     const uint64_t now_us = 777000u + (uint64_t)k * BODY_PERIOD_US;
     const double t = 0.01 * k;
     float values[6];
-    read_at(t, 0u, values);
+    body_read_at(&hinge, t, 0u, values);
     body_send(&f, 0u, now_us, values);
-    read_at(t - late_s, 1u, values);
+    body_read_at(&hinge, t - late_s, 1u, values);
     body_send(&f, 1u, now_us, values);
     (void)body_work(&f, now_us);
     note_events();
@@ -121,7 +110,7 @@ static void after_a_gap_there_is_no_angle_until_the_heading_is_known(void)
     }
     for (uint32_t k = 3000u; k < 3060u; ++k) { /* 0.6 s without sensor 1 */
         float values[6];
-        read_at(0.01 * k, 0u, values);
+        body_read_at(&hinge, 0.01 * k, 0u, values);
         body_send(&f, 0u, 777000u + (uint64_t)k * BODY_PERIOD_US, values);
         (void)body_work(&f, 777000u + (uint64_t)k * BODY_PERIOD_US);
     }
@@ -153,10 +142,10 @@ static void two_sensors_that_share_no_joint_are_told(void)
         const uint64_t now_us = 777000u + (uint64_t)k * BODY_PERIOD_US;
         const hinge_t own = hinge;
         float values[6];
-        read_at(0.01 * k, 0u, values);
+        body_read_at(&hinge, 0.01 * k, 0u, values);
         body_send(&f, 0u, now_us, values);
         hinge = other;
-        read_at(0.01 * k + 3.0, 1u, values);
+        body_read_at(&hinge, 0.01 * k + 3.0, 1u, values);
         hinge = own;
         body_send(&f, 1u, now_us, values);
         (void)body_work(&f, now_us);

@@ -42,16 +42,6 @@ void tearDown(void)
 {
 }
 
-static void read_at(double t, unsigned sensor, float values[6])
-{
-    hinge_sensor_t s;
-    hinge_sensor(&hinge, t, (int)sensor + 1, &s);
-    for (int i = 0; i < 3; ++i) {
-        values[i] = (float)(s.gyr[i] + 1e-3 * sin((1100.0 + 200.0 * sensor) * t + i));
-        values[i + 3] = (float)(s.force[i] + 1e-2 * sin((1700.0 + 200.0 * sensor) * t + i));
-    }
-}
-
 static void note_events(void)
 {
     jcal_body_event_t event;
@@ -69,7 +59,7 @@ static void play(uint32_t k, unsigned first)
     const uint64_t now_us = 777000u + (uint64_t)k * BODY_PERIOD_US;
     float values[6];
     for (unsigned s = 0u; s < 2u; ++s) {
-        read_at(0.01 * k, (s == 0u) ? first : (1u - first), values);
+        body_read_at(&hinge, 0.01 * k, (s == 0u) ? first : (1u - first), values);
         body_send(&f, s, now_us, values);
     }
     (void)body_work(&f, now_us);

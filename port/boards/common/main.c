@@ -3,6 +3,7 @@
 #include "board.h"
 #include "flash.h"
 #include "hub.h"
+#include "send.h"
 
 static hub_t hub;
 
@@ -17,14 +18,6 @@ static void tell_time(void)
     __asm volatile("cpsid i" ::: "memory");
     hub_time(&hub, board_now_us());
     __asm volatile("cpsie i" ::: "memory");
-}
-
-static void send_what_fits(void)
-{
-    uint8_t byte = 0;
-    while (board_can_send() && hub_send(&hub, &byte)) {
-        board_send(byte);
-    }
 }
 
 /* With interrupts masked, so that a byte that comes after the look still ends the sleep: a pending interrupt ends wfi even
@@ -53,7 +46,7 @@ int main(void)
     for (;;) {
         tell_time();
         const bool worked = hub_work(&hub);
-        send_what_fits();
+        send_what_fits(&hub);
         if (!worked) {
             sleep_if_idle();
         }

@@ -25,7 +25,7 @@ BUSIEST, MEAN, RAM, STACK = 160_000, 60_000, 65_536, 1_536  # DESIGN: budgets
 RAM_ALLOWED = 67000  # more is not known: port/cortex_m/budgets.json
 MINUTE = 6000  # steps
 TOOLS = ("qemu-system-arm", "arm-none-eabi-gcc")
-ROW_COLUMNS = 16  # the first ones of native_body, as replay_person.h writes them
+ROW_COLUMNS = 16  # of port/cortex_m/body_row.h: the first ones of native_body
 ROW, EVENT = (np.dtype([("now_us", "<u8"), ("t_us", "<u8"), ("values", "<u4", ROW_COLUMNS)]),
               np.dtype([("t_us", "<u8"), ("values", "<u4", EVENT_COLUMNS), ("zero", "<u4")]))
 
